@@ -1,0 +1,12 @@
+"""What catkin and pip install; name, version and the like come from package.xml."""
+from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import find_packages, setup
+
+setup(**generate_distutils_setup(
+    packages=find_packages('src'),
+    package_dir={'': 'src'},
+    package_data={'': ['py.typed', '*.json']},
+    entry_points={'console_scripts': ['rocon_uri = rocon_uri.cli:main']},
+    install_requires=['PyYAML'],
+    python_requires='>=3.8',
+))
