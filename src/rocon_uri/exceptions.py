@@ -1,0 +1,165 @@
+"""
+What is raised for a rocon URI that is not one, and for a question about two that is too hard.
+
+The text of an error is one line that a log can hold whatever the input was; the parts that it is
+made of are attributes beside it.
+"""
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Callable, Iterable, List, Optional, Tuple
+
+__all__ = ['PatternTooComplex', 'RoconURIValueError', 'near_misses', 'quoted']
+
+_QUOTED_LENGTH = 80     # characters of the offending text that a line shows
+_NEAR_LENGTH = 64       # a longer text is nobody's typing error; bounds the cost of the search
+
+
+def quoted(text: str) -> str:
+    """
+    The text as an error shows it: in single quotes, on one line, shortened if it is long.
+
+    :param str text: anything
+    :returns: str, printable and at most about 80 characters of the text
+
+    >>> print(quoted('a' * 100 + chr(10)), quoted(chr(10)))
+    'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa...' '\\n'
+    """
+    if len(text) > _QUOTED_LENGTH:
+        text = text[:_QUOTED_LENGTH - 3] + '...'
+    return "'%s'" % ''.join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
+def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
+    """
+    The candidates that somebody may have meant by this text, the likeliest first.
+
+    :param str text: what was written
+    :param candidates: iterable of str, what could have been written
+    :returns: list of at most three str
+
+    >>> near_misses('turtelbot2', ['kobuki', 'turtlebot', 'turtlebot2'])
+    ['turtlebot2', 'turtlebot']
+    """
+    if len(text) > _NEAR_LENGTH:
+        return []
+    import difflib      # here, since only an error that is looked at needs it
+    by_lower = {candidate.lower(): candidate for candidate in sorted(candidates)}
+    found = difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.7)
+    return [by_lower[name] for name in found]
+
+
+class RoconURIValueError(ValueError):
+    """
+    A text that is not a rocon URI, or a part of one that is not legal.
+
+    :param str problem: what is wrong, one clause that names the offending text
+    :param str uri: the whole text
+    :param str field: ``'concert_name'``, ``'hardware_platform'``, ``'name'``,
+        ``'application_framework'``, ``'operating_system'``, ``'rocon_app'``, or ``'uri'`` where
+        the fault is in no single one of them
+    :param str value: the offending part
+    :param span: (int, int), where in ``uri`` the fault starts and ends, counted in characters
+        from 0; all of it where left out
+    :param candidates: what could have stood there: an iterable of str, or a callable that
+        returns one and is called only when the suggestions are looked at
+    :param str advice: what to do about it, one clause
+
+    The attributes have the names of the parameters, ``problem``, ``uri``, ``field``, ``value``,
+    ``span`` and ``advice``.
+
+    >>> error = RoconURIValueError("name '3bob' is not legal", 'rocon:/pr2/3bob', 'name', '3bob',
+    ...                            (11, 15))
+    >>> print(error)
+    name '3bob' is not legal, at character 12 of 'rocon:/pr2/3bob'
+    """
+
+    def __init__(self, problem: str, uri: str = '', field: str = 'uri', value: str = '',
+                 span: Optional[Tuple[int, int]] = None,
+                 candidates: 'Iterable[str] | Callable[[], Iterable[str]]' = (),
+                 advice: str = '') -> None:
+        super().__init__(problem)
+        self.problem = problem
+        self.uri = uri
+        self.field = field
+        self.value = value
+        self.span = (0, len(uri)) if span is None else span
+        self.advice = advice
+        self._candidates = candidates
+
+    @property
+    def suggestions(self) -> List[str]:
+        """What was probably meant: a list of at most three str, the likeliest first."""
+        candidates = self._candidates() if callable(self._candidates) else self._candidates
+        return near_misses(self.value, candidates)
+
+    def within(self, uri: str, span: Tuple[int, int]) -> 'RoconURIValueError':
+        """
+        The same error, placed in a larger text.
+
+        :param str uri: the larger text
+        :param span: (int, int), where in it the fault is
+        :returns: an error of the same class
+        """
+        return type(self)(self.problem, uri, self.field, self.value, span, self._candidates,
+                          self.advice)
+
+    def __str__(self) -> str:
+        text = self._headline()
+        if self.uri:
+            text += ', at character %d of %s' % (self.span[0] + 1, quoted(self.uri))
+        return text + ('; ' + self.advice if self.advice else '')
+
+    def pretty(self) -> str:
+        """
+        The error for a person: the text, then the URI with carets under the fault.
+
+        :returns: str of several lines
+
+        >>> error = RoconURIValueError("hardware_platform 'turtelbot2' is not registered",
+        ...     'rocon:/turtelbot2', 'hardware_platform', 'turtelbot2', (7, 17), ['turtlebot2'])
+        >>> print(error.pretty())
+        hardware_platform 'turtelbot2' is not registered (did you mean 'turtlebot2'?)
+            rocon:/turtelbot2
+                   ^^^^^^^^^^
+        """
+        lines = [self._headline()]
+        if self.uri:
+            lines += ['    ' + line for line in self._marked_uri()]
+        if self.advice:
+            lines.append(self.advice)
+        return '\n'.join(lines)
+
+    def _headline(self) -> str:
+        suggestions = self.suggestions
+        if not suggestions:
+            return self.problem
+        return '%s (did you mean %s?)' % (self.problem, ' or '.join(map(quoted, suggestions)))
+
+    def _marked_uri(self) -> Tuple[str, str]:
+        """The part of the URI around the fault, and a line of carets for below it."""
+        start, end = self.span
+        left, right = max(0, start - 40), min(len(self.uri), end + 30, start + 80)
+        before = '...' if left else ''
+        shown = ''.join(c if c.isprintable() else '?' for c in self.uri[left:right])
+        after = '...' if right < len(self.uri) else ''
+        carets = '^' * max(1, min(end, right) - start)
+        return before + shown + after, ' ' * (len(before) + start - left) + carets
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(self), (self.problem, self.uri, self.field, self.value, self.span,
+                            tuple(self.suggestions), self.advice)
+
+
+class PatternTooComplex(RoconURIValueError):
+    """
+    Two name patterns whose relation would take more work to decide than is allowed.
+
+    Either of them can still be matched with names. What remained undecided where many were
+    asked about is in ``undecided``, a list; it is empty where only two were.
+    """
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.undecided: List[Any] = []

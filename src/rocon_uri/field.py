@@ -1,0 +1,273 @@
+"""
+One field of a rocon URI: a set of values, or of names.
+
+`read_values` reads the fields whose values are registered, `read_name` the name.
+"""
+from __future__ import annotations
+
+from rocon_uri import name_pattern
+from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.grammar import ALTERNATIVES_LIMIT, NAME_LIMIT
+from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.vocabulary import Vocabulary, completed
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import FrozenSet, Iterator, List, Optional, Tuple
+    from rocon_uri.name_pattern import NamePattern
+
+__all__ = ['Field', 'NameField', 'UnregisteredValue', 'ValuesField', 'read_name', 'read_values']
+
+_ANY_MASK = -1      # all bits, more than any vocabulary has: `*` is larger than all that is known
+_MEMO_SIZE = 1024           # field texts remembered for each field of a vocabulary
+_MEMO_TEXT_LENGTH = 256     # characters; longer ones are read anew each time
+
+
+class UnregisteredValue(RoconURIValueError):
+    """A value that the vocabulary does not know; a more complete one may."""
+
+
+class Field:
+    """
+    One field of a `rocon_uri.RoconURI`, a set of values; specification, section "Definition".
+
+    Iteration gives the alternatives as they were written, ``'*'`` for any.
+
+    >>> import rocon_uri
+    >>> uri = rocon_uri.parse('rocon:/pr2|kobuki/bob*/noetic/ubuntu')
+    >>> uri.hardware_platform.string, uri.hardware_platform.list, list(uri.operating_system)
+    ('pr2|kobuki', ['pr2', 'kobuki'], ['ubuntu'])
+    >>> 'focal' in uri.operating_system, 'bob7' in uri.name, 'kobuki' in uri.hardware_platform
+    (True, True, True)
+    """
+
+    __slots__ = ('_string',)
+
+    _string: str
+
+    @property
+    def string(self) -> str:
+        """The text of the field, as str: ``'pr2|kobuki'``, or ``'*'`` for any."""
+        return self._string
+
+    @property
+    def list(self) -> List[str]:
+        """The alternatives as written: a new list of str, ``['*']`` for any."""
+        return list(self)
+
+    @property
+    def is_any(self) -> bool:
+        """Is the field ``*``?"""
+        return self._string == '*'
+
+    def __iter__(self) -> Iterator[str]:
+        return iter((self._string,))
+
+    def __contains__(self, value: object) -> bool:
+        raise NotImplementedError
+
+    def expand(self) -> List[str]:
+        """
+        The registered values that the field stands for, none of them a group.
+
+        :returns: list of str; for the name, which has no registered values, the same as ``list``
+
+        >>> import rocon_uri
+        >>> rocon_uri.parse('rocon:/phone').hardware_platform.expand()
+        ['galaxy', 'mega', 'note3', 'phone_other']
+        """
+        return self.list
+
+    def __str__(self) -> str:
+        return self._string
+
+    def __repr__(self) -> str:
+        return '<Field %r>' % self._string
+
+
+class ValuesField(Field):
+    """
+    A field whose values are registered; its set is a mask of bits of one vocabulary.
+
+    :param str name: the name of the field
+    :param alternatives: tuple of str, as written; ``('*',)`` for any
+    :param Vocabulary vocabulary: what they are read with
+    """
+
+    __slots__ = ('field_name', 'alternatives', 'mask', 'others', '_vocabulary', '_key')
+
+    def __init__(self, name: str, alternatives: Tuple[str, ...], vocabulary: Vocabulary) -> None:
+        known = vocabulary.field(name)
+        self._string = '|'.join(alternatives)
+        self.field_name = name
+        self.alternatives = alternatives
+        self.mask = 0
+        for value in alternatives:
+            if value == '*':
+                self.mask = _ANY_MASK
+            elif value in known:
+                self.mask |= known.mask(value)
+        # the values that only an open vocabulary admits have no bits
+        self.others: FrozenSet[str] = frozenset(
+            value for value in alternatives if value != '*' and value not in known)
+        self._vocabulary = vocabulary
+        self._key = frozenset(alternatives)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.alternatives)
+
+    def __contains__(self, value: object) -> bool:
+        if not isinstance(value, str):
+            return False
+        vocabulary = completed(self._vocabulary)
+        known = vocabulary.field(self.field_name)
+        if value not in known:
+            return value in self.others or self.is_any and is_legal_base_name(value)
+        return not known.mask(value) & ~self.in_vocabulary(vocabulary).mask
+
+    def in_vocabulary(self, vocabulary: Vocabulary) -> 'ValuesField':
+        """The same field read with another vocabulary, or UnregisteredValue."""
+        if vocabulary is self._vocabulary:
+            return self
+        return read_values(self.field_name, self._string, vocabulary)
+
+    def expand(self) -> List[str]:
+        vocabulary = completed(self._vocabulary)
+        known = vocabulary.field(self.field_name)
+        values = known if self.is_any else self.alternatives
+        return list(dict.fromkeys(leaf for value in values
+                                  for leaf in (known.leaves(value) if value in known else [value])))
+
+    def intersects(self, other: 'ValuesField') -> bool:
+        """Do both have a value in common? Both are of one vocabulary."""
+        return bool(self.mask & other.mask or self.others & other.others
+                    or self.is_any and other.others or other.is_any and self.others)
+
+    def includes(self, other: 'ValuesField') -> bool:
+        """Are all values of the other here too? Both are of one vocabulary."""
+        return self.is_any or (not other.is_any and not other.mask & ~self.mask
+                               and other.others <= self.others)
+
+    def shared(self, other: 'ValuesField') -> str:
+        """What both have in common, as the text of a field; '' for nothing."""
+        if self.is_any:
+            return other.string
+        if other.is_any:
+            return self.string
+        known = self._vocabulary.field(self.field_name)
+        return '|'.join(known.covering(self.mask & other.mask)
+                        + sorted(self.others & other.others))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ValuesField):
+            return NotImplemented
+        return self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+
+class NameField(Field):
+    """
+    The name: a set of ROS names, given by a literal name or a pattern.
+
+    :param str string: the text
+    :param NamePattern pattern: what it says
+    """
+
+    __slots__ = ('pattern',)
+
+    def __init__(self, string: str, pattern: NamePattern) -> None:
+        self._string = string
+        self.pattern = pattern
+
+    def __contains__(self, value: object) -> bool:
+        return isinstance(value, str) and self.pattern.matches(value)
+
+    def intersects(self, other: 'NameField') -> bool:
+        """Is there a name that both admit?"""
+        return self.pattern.intersects(other.pattern)
+
+    def includes(self, other: 'NameField') -> bool:
+        """Is every name that the other admits admitted here?"""
+        return self.pattern.includes(other.pattern)
+
+    def shared(self, other: 'NameField') -> str:
+        """A name that both admit; '' if there is none."""
+        if self.is_any or other.is_any:
+            return self.string if other.is_any else other.string
+        return self.pattern.example(other.pattern) or ''
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, NameField):
+            return NotImplemented
+        return self._string == other._string
+
+    def __hash__(self) -> int:
+        return hash(self._string)
+
+
+def read_values(name: str, text: str, vocabulary: Vocabulary) -> ValuesField:
+    """
+    Read a field whose values are registered.
+
+    :param str name: the name of the field
+    :param str text: its text, decoded; '' for any
+    :param Vocabulary vocabulary: what to read it with
+    :returns: ValuesField
+    :raises RoconURIValueError: if it is not legal; span is in ``text``
+    """
+    memo = vocabulary.fields_read[name]
+    field: Optional[ValuesField] = memo.get(text)
+    if field is None:
+        field = ValuesField(name, _alternatives(name, text or '*', vocabulary), vocabulary)
+        if len(text) <= _MEMO_TEXT_LENGTH:
+            if len(memo) >= _MEMO_SIZE:
+                memo.clear()
+            memo[text] = field
+    return field
+
+
+def _alternatives(name: str, text: str, vocabulary: Vocabulary) -> Tuple[str, ...]:
+    known = vocabulary.field(name)
+    if text.count('|') >= ALTERNATIVES_LIMIT:
+        raise RoconURIValueError('%s has more than %d alternatives' % (name, ALTERNATIVES_LIMIT),
+                                 text, name, text)
+    alternatives = []
+    start = 0
+    for value in text.split('|'):
+        span = (start, start + len(value))
+        start = span[1] + 1
+        if not value:
+            raise RoconURIValueError(
+                '%s %s has an empty alternative' % (name, quoted(text)), text, name, value,
+                (max(0, span[0] - 1), max(1, span[1])), advice="write a value on each side of '|'")
+        if value != '*' and value not in known:
+            _check_unregistered(name, value, text, span, vocabulary)
+        alternatives.append(value)
+    return ('*',) if '*' in alternatives else tuple(dict.fromkeys(alternatives))
+
+
+def _check_unregistered(name: str, value: str, text: str, span: Tuple[int, int],
+                        vocabulary: Vocabulary) -> None:
+    if not vocabulary.is_open:
+        raise UnregisteredValue(
+            '%s %s is not registered' % (name, quoted(value)), text, name, value, span,
+            candidates=vocabulary.field(name),
+            advice='to register it, add it to a rules file that a package exports or that '
+                   'ROCON_URI_RULES names')
+    if not is_legal_base_name(value) or len(value) > NAME_LIMIT:
+        raise RoconURIValueError('%s %s is not a ROS base name of at most %d characters'
+                                 % (name, quoted(value), NAME_LIMIT), text, name, value, span)
+
+
+def read_name(text: str) -> NameField:
+    """
+    Read the name.
+
+    :param str text: its text, decoded; '' for any
+    :returns: NameField
+    :raises RoconURIValueError: if it is not legal; span is in ``text``
+    """
+    text = text or '*'
+    return NameField(text, name_pattern.read(text))

@@ -1,0 +1,156 @@
+"""
+The grammar of a rocon URI: as EBNF for people, and as the one expression that splits a text.
+
+The expression only finds the parts; whether each of them is legal is for the modules that know
+what it means (`rocon_uri.field`, `rocon_uri.uri`).
+"""
+from __future__ import annotations
+
+import re
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Iterable, List, Mapping, Optional, Tuple
+
+__all__ = ['ALTERNATIVES_LIMIT', 'EBNF', 'NAME_LIMIT', 'TEXT_LIMIT', 'VOCABULARY_FIELDS',
+           'decoded', 'ebnf', 'is_literal', 'is_rocon_app', 'raw_span', 'split', 'stray_character']
+
+TEXT_LIMIT = 65536          # characters of a whole URI
+NAME_LIMIT = 255            # characters of a concert name, of a name or pattern, of a half of an app
+ALTERNATIVES_LIMIT = 256    # alternatives of one field
+
+#: The fields whose values are registered, in the order in which a URI has them.
+VOCABULARY_FIELDS = ('hardware_platform', 'application_framework', 'operating_system')
+
+EBNF = '''\
+rocon_uri   = "rocon:" , [ "//" , [ concert_name ] ] , [ "/" , fields ] , [ "#" , [ rocon_app ] ] ;
+fields      = hardware_platform , [ "/" , name , [ "/" , application_framework ,
+              [ "/" , operating_system , [ "/" ] ] ] ] ;
+
+hardware_platform     = [ platform , { "|" , platform } ] ;
+application_framework = [ framework , { "|" , framework } ] ;
+operating_system      = [ system , { "|" , system } ] ;
+name                  = [ "*" | base_name | glob | regex ] ;
+concert_name          = base_name ;
+rocon_app             = [ base_name , "/" ] , base_name ;
+
+base_name   = letter , { letter | digit | "_" } ;
+glob        = { letter | digit | "_" | "*" } ;              (* at least one "*" *)
+
+regex       = [ "^" ] , branch , [ "$" ] ;                  (* of the whole name *)
+branch      = { piece } ;
+piece       = atom , [ "*" | "+" | "?" | "{" , m , "}" | "{" , m , ",}" | "{" , m , "," , n , "}" ] ;
+atom        = letter | digit | "_" | "." | class | shorthand | group ;
+group       = ( "(" | "(?:" ) , branch , { "|" , branch } , ")" ;
+class       = "[" , [ "^" ] , item , { item } , "]" ;
+item        = letter | digit | "_" | range | shorthand ;
+range       = ? two digits, two lower-case or two upper-case letters in order, "-" between ? ;
+shorthand   = "\\d" | "\\D" | "\\w" | "\\W" ;
+m           = ? a number from 0 to 255 ? ;
+n           = ? a number from m to 255 ? ;
+letter      = ? A to Z, a to z ? ;
+digit       = ? 0 to 9 ? ;
+'''
+
+#: Splits a text into concert name, slash, the four fields, a fifth and more, and the app; all of
+#: them raw, and None where they are left out. The slash is '' where the one that should stand
+#: before the fields is missing. None for a text that does not begin with the scheme.
+split = re.compile(
+    r'(?i:rocon):(?://([^/#]*))?(/?)([^/#]*)(?:/([^/#]*)(?:/([^/#]*)(?:/([^/#]*)(/[^#]*)?)?)?)?'
+    r'(?:#(.*))?', re.DOTALL).fullmatch
+
+_stray_character = re.compile(r'[\s\x00-\x1f\x7f-\x9f]').search
+_escape = re.compile(r'%([0-9A-Fa-f]{2})?')
+
+#: A match if the text is a literal name, else None.
+is_literal = re.compile(r'[A-Za-z]\w{0,254}', re.ASCII).fullmatch
+
+#: A match if the text is the name of an app, ``package/name`` or ``name``, else None.
+is_rocon_app = re.compile(r'(?:[A-Za-z]\w{0,254}/)?[A-Za-z]\w{0,254}', re.ASCII).fullmatch
+
+
+def stray_character(text: str) -> Optional[int]:
+    """
+    Where the first white space or control character is, which no URI may have.
+
+    :param str text: a whole URI
+    :returns: int, its index, or None
+
+    >>> stray_character('rocon:/pr2 /bob')
+    10
+    """
+    match = _stray_character(text)
+    return match.start() if match else None
+
+
+def decoded(raw: str) -> str:
+    """
+    A part of a URI with its percent-escapes decoded.
+
+    :param str raw: the part as it stands in the URI
+    :returns: str
+    :raises ValueError: for a ``%`` without two hexadecimal digits, and for escapes that are not
+        UTF-8; its text says which
+
+    >>> decoded('pr2%7Ckobuki')
+    'pr2|kobuki'
+    """
+    if '%' not in raw:
+        return raw
+    for match in _escape.finditer(raw):
+        if match.group(1) is None:
+            raise ValueError("'%' is not followed by two hexadecimal digits")
+    # a lone surrogate is as little UTF-8 as a stray byte is
+    try:
+        octets = b''.join(bytes([int(piece, 16)]) if index % 2 else piece.encode('utf-8')
+                          for index, piece in enumerate(_escape.split(raw)))
+        return octets.decode('utf-8')
+    except UnicodeError:
+        raise ValueError('its percent-escapes are not UTF-8') from None
+
+
+def raw_span(raw: str, start: int, end: int) -> Tuple[int, int]:
+    """
+    Where characters of a decoded part stand in its raw text.
+
+    :param str raw: the part as it stands in the URI, which `decoded` takes
+    :param int start: index of the first character in the decoded part
+    :param int end: index after the last
+    :returns: (int, int), the same for the raw text
+
+    >>> raw_span('pr2%7Ckobuki', 4, 10)
+    (6, 12)
+    """
+    if '%' not in raw:
+        return start, end
+    # where each decoded character starts: an escape whose octet continues one does not start any
+    starts = [match.start() for match in re.finditer('%[0-9A-Fa-f]{2}|.', raw, re.DOTALL)
+              if not re.match('%[89ABab]', match.group())]
+    starts.append(len(raw))
+    return starts[min(start, len(starts) - 1)], starts[min(end, len(starts) - 1)]
+
+
+def ebnf(values: Mapping[str, Iterable[str]]) -> str:
+    """
+    The whole grammar with the vocabulary in it.
+
+    :param values: mapping of the name of each vocabulary field to its values and groups
+    :returns: str, several lines
+
+    >>> print(ebnf({'hardware_platform': ['pc'], 'application_framework': ['ros'],
+    ...             'operating_system': ['linux']}).splitlines()[-1])
+    system      = "*" | "linux" ;
+    """
+    symbols = zip(('platform', 'framework', 'system'), VOCABULARY_FIELDS)
+    return EBNF + '\n' + ''.join(_choice(symbol, values[field]) for symbol, field in symbols)
+
+
+def _choice(symbol: str, values: Iterable[str]) -> str:
+    """One rule of EBNF: a choice of quoted values, wrapped at 100 characters."""
+    lines: List[str] = ['%-11s = "*"' % symbol]
+    for value in values:
+        item = ' | "%s"' % value
+        if len(lines[-1]) + len(item) > 98:
+            lines.append(' ' * 13)
+        lines[-1] += item
+    return '\n'.join(lines) + ' ;\n'

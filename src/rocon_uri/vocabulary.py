@@ -1,0 +1,358 @@
+"""
+Vocabularies: the values that the fields of a rocon URI may have, and the groups that they form.
+
+A group stands for its members, at every depth. A vocabulary never changes: more rules make a new
+one. What a URI is read with where nothing else is said is `current`: first what is bundled, then,
+once it was `complete`, also what the packages on this machine export.
+"""
+from __future__ import annotations
+
+import itertools
+import os
+import threading
+
+from rocon_uri.grammar import NAME_LIMIT, VOCABULARY_FIELDS
+from rocon_uri.ros_names import is_legal_base_name
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple
+
+__all__ = ['FieldVocabulary', 'RulesError', 'Vocabulary', 'complete', 'completed', 'current',
+           'members']
+
+_RULES_FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'rules')
+_serial_numbers = itertools.count()
+
+
+class RulesError(ValueError):
+    """
+    Rules that do not fit: a name that is not legal, or one under two parents of one field.
+
+    :param str problem: what is wrong
+    :param path: sequence of the keys and indices that lead to it in the rules
+
+    ``problem`` and ``path`` are attributes too.
+    """
+
+    def __init__(self, problem: str, path: Tuple[Any, ...] = ()) -> None:
+        super().__init__(problem)
+        self.problem = problem
+        self.path = path
+
+
+def members(rules: Any, path: Tuple[Any, ...] = ()) -> Iterator[Tuple[Any, Any, Tuple[Any, ...]]]:
+    """
+    The names directly below a group of rules, in whichever way it is written down.
+
+    :param rules: a mapping from a name to the rules below it, a list of names and mappings, a
+        single name, or None for nothing
+    :param path: where the rules stand, for errors
+    :returns: iterator of (name, rules below it, path)
+
+    >>> [name for name, below, path in members({'a': None, 'b': ['c']})]
+    ['a', 'b']
+    """
+    if isinstance(rules, dict):
+        for name, below in rules.items():
+            yield name, below, path + (name,)
+    elif isinstance(rules, list):
+        for index, item in enumerate(rules):
+            if isinstance(item, list):
+                raise RulesError('a list stands where a value or a group belongs', path + (index,))
+            for name, below, place in members(item, path + (index,)):
+                yield name, below, place
+    elif rules is not None:
+        yield rules, None, path
+
+
+class FieldVocabulary:
+    """
+    The values and groups of one field.
+
+    :param str name: one of `rocon_uri.grammar.VOCABULARY_FIELDS`
+    :param parents: mapping from each value and group, in order, to its group, or to None
+    """
+
+    __slots__ = ('name', '_parents', '_children', '_bits')
+
+    def __init__(self, name: str, parents: Mapping[str, Optional[str]]) -> None:
+        self.name = name
+        self._parents = dict(parents)
+        self._children: Dict[Optional[str], List[str]] = {None: []}
+        for value, parent in self._parents.items():
+            self._children.setdefault(parent, []).append(value)
+        leaves = (value for value in self._parents if value not in self._children)
+        self._bits = {value: bit for bit, value in enumerate(leaves)}
+
+    def __contains__(self, value: object) -> bool:
+        return value in self._parents
+
+    def __iter__(self) -> Iterator[str]:
+        """All values and groups, a group before its members."""
+        for value in self._children[None]:
+            yield value
+            for below in self._below(value):
+                yield below
+
+    def _below(self, value: str) -> Iterator[str]:
+        waiting = list(reversed(self._children.get(value, ())))
+        while waiting:
+            below = waiting.pop()
+            yield below
+            waiting.extend(reversed(self._children.get(below, ())))
+
+    def children(self, group: Optional[str] = None) -> List[str]:
+        """
+        What stands directly in a group, or at the top.
+
+        :param group: str, or None for the top
+        :returns: list of str; empty for a value that is no group
+
+        >>> Vocabulary.bundled().field('hardware_platform').children('mobile_device')
+        ['phone', 'tablet']
+        """
+        return list(self._children.get(group, ()))
+
+    def leaves(self, value: str) -> List[str]:
+        """
+        The values that a group stands for, at every depth; a value stands for itself.
+
+        :param str value: a registered value or group
+        :returns: list of str, in the order of the vocabulary
+        :raises KeyError: if it is not registered
+        """
+        if value in self._bits:
+            return [value]
+        self._parents[value]
+        return [below for below in self._below(value) if below in self._bits]
+
+    def mask(self, value: str) -> int:
+        """
+        The same as a set of bits, one for each value that is no group.
+
+        :param str value: a registered value or group
+        :returns: int
+        :raises KeyError: if it is not registered
+        """
+        mask = 0
+        for leaf in self.leaves(value):
+            mask |= 1 << self._bits[leaf]
+        return mask
+
+    def covering(self, mask: int) -> List[str]:
+        """
+        The fewest values and groups that stand for exactly the values of a mask.
+
+        :param int mask: as `mask` returns
+        :returns: list of str
+
+        >>> systems = Vocabulary.bundled().field('operating_system')
+        >>> systems.covering(systems.mask('ubuntu') & systems.mask('linux'))
+        ['ubuntu']
+        """
+        found: List[str] = []
+        waiting = self._children[None][::-1]
+        while waiting and mask:
+            value = waiting.pop()
+            own = self.mask(value)
+            if own and not own & ~mask:
+                found.append(value)
+                mask &= ~own
+            elif own & mask:
+                waiting.extend(reversed(self._children[value]))
+        return found
+
+    def extended(self, rules: Any, path: Tuple[Any, ...] = ()) -> 'FieldVocabulary':
+        """
+        This vocabulary with more values and groups.
+
+        :param rules: as `members` takes; a name that is known is the group that exists
+        :param path: where the rules stand, for errors
+        :returns: FieldVocabulary
+        :raises RulesError: for a name that is no ROS base name or is in two groups
+        """
+        parents = dict(self._parents)
+        waiting: List[Tuple[Optional[str], Any, Tuple[Any, ...]]] = [(None, rules, path)]
+        while waiting:
+            parent, below, path = waiting.pop()
+            for name, rest, place in members(below, path):
+                _check_name(self.name, name, place)
+                known = parents.setdefault(name, parent)
+                if parent is not None and known != parent:
+                    raise RulesError("%s '%s' cannot be in '%s', since it is %s already" % (
+                        self.name, name, parent,
+                        "in '%s'" % known if known else 'in no group'), place)
+                waiting.append((name, rest, place))
+        return FieldVocabulary(self.name, parents)
+
+
+def _check_name(field: str, name: Any, path: Tuple[Any, ...]) -> None:
+    if not isinstance(name, str):
+        raise RulesError('%s %r is not text; put it in quotes' % (field, name), path)
+    if not is_legal_base_name(name) or len(name) > NAME_LIMIT:
+        from rocon_uri.exceptions import quoted     # here, since only a fault needs it
+        raise RulesError('%s %s is not a ROS base name (a letter, then letters, digits and _)'
+                         % (field, quoted(name)), path)
+
+
+class Vocabulary:
+    """
+    The values of the three fields that have registered ones.
+
+    :param rules: mapping from ``'hardware_platform'``, ``'application_framework'`` and
+        ``'operating_system'`` to nested groups: mappings from a group to what is in it, lists of
+        values and of such mappings, or a mix
+    :raises RulesError: for rules that do not fit
+
+    >>> ours = Vocabulary({'hardware_platform': {'robot': ['bender']}})
+    >>> 'bender' in ours.field('hardware_platform')
+    True
+    """
+
+    __slots__ = ('_fields', '_opened', 'is_open', 'serial', 'fields_read', 'uris_read')
+
+    def __init__(self, rules: Mapping[str, Any]) -> None:
+        fields = {name: FieldVocabulary(name, {}) for name in VOCABULARY_FIELDS}
+        self._adopt(_extended(fields, rules))
+
+    def _adopt(self, fields: Dict[str, FieldVocabulary], is_open: bool = False) -> None:
+        self._fields = fields
+        self._opened: Optional[Vocabulary] = None
+        #: bool: is any base name a value?
+        self.is_open = is_open
+        #: int: larger for one that was made later
+        self.serial = next(_serial_numbers)
+        # What was read with this vocabulary, kept by those who read: so it ends with it, and a
+        # thread that is late cannot leave anything for those who read with the next one.
+        self.fields_read: Dict[str, Dict[str, Any]] = {name: {} for name in fields}
+        self.uris_read: Dict[str, Any] = {}
+
+    @classmethod
+    def _of(cls, fields: Dict[str, FieldVocabulary], is_open: bool = False) -> 'Vocabulary':
+        vocabulary = cls.__new__(cls)
+        vocabulary._adopt(fields, is_open)
+        return vocabulary
+
+    @classmethod
+    def bundled(cls) -> 'Vocabulary':
+        """
+        What this package knows by itself.
+
+        :returns: Vocabulary
+
+        >>> 'noetic' in Vocabulary.bundled().field('application_framework')
+        True
+        """
+        import json     # here, since importing the package should be cheap
+        rules = {}
+        for name in VOCABULARY_FIELDS:
+            with open(os.path.join(_RULES_FOLDER, name + '.json'), encoding='ascii') as rules_file:
+                rules[name] = json.load(rules_file)
+        return cls(rules)
+
+    @classmethod
+    def open(cls) -> 'Vocabulary':
+        """
+        The complete vocabulary of this machine, in which any other base name is a value too.
+
+        :returns: Vocabulary
+
+        >>> Vocabulary.open().is_open
+        True
+        """
+        return complete().opened()
+
+    def opened(self) -> 'Vocabulary':
+        """
+        This vocabulary, but any base name is a value.
+
+        :returns: Vocabulary, itself where it is open already
+        """
+        if self._opened is None:
+            self._opened = self if self.is_open else Vocabulary._of(self._fields, is_open=True)
+        return self._opened
+
+    def extended(self, rules: Mapping[str, Any]) -> 'Vocabulary':
+        """
+        This vocabulary with more values and groups.
+
+        :param rules: as `Vocabulary` takes
+        :returns: Vocabulary
+        :raises RulesError: for rules that do not fit
+
+        >>> ours = Vocabulary.bundled().extended({'operating_system': {'linux': ['our_linux']}})
+        >>> 'our_linux' in ours.field('operating_system').leaves('linux')
+        True
+        """
+        return Vocabulary._of(_extended(self._fields, rules), self.is_open)
+
+    def field(self, name: str) -> FieldVocabulary:
+        """
+        The values of one field.
+
+        :param str name: one of `rocon_uri.grammar.VOCABULARY_FIELDS`
+        :returns: FieldVocabulary
+        :raises KeyError: for any other name
+        """
+        return self._fields[name]
+
+
+def _extended(fields: Mapping[str, FieldVocabulary],
+              rules: Any) -> Dict[str, FieldVocabulary]:
+    extended = dict(fields)
+    if not isinstance(rules, dict):
+        raise RulesError('rules are a mapping from fields to their values')
+    for name, below in rules.items():
+        if name not in extended:
+            raise RulesError("'%s' is no field with registered values; these are: %s"
+                             % (name, ', '.join(VOCABULARY_FIELDS)), (name,))
+        extended[name] = extended[name].extended(below, (name,))
+    return extended
+
+
+_initial: Optional[Vocabulary] = None       # what is bundled, in use until more is asked for
+_complete: Optional[Vocabulary] = None
+_lock = threading.RLock()
+
+
+def current() -> Vocabulary:
+    """
+    The vocabulary that URIs are read with where no other is given.
+
+    :returns: Vocabulary: what is bundled, until something needed more and it was completed
+    """
+    global _initial
+    if _complete is not None:
+        return _complete
+    if _initial is None:
+        with _lock:
+            _initial = _initial or Vocabulary.bundled()
+    return _initial
+
+
+def complete() -> Vocabulary:
+    """
+    The current vocabulary, with what the packages on this machine and ``ROCON_URI_RULES`` add.
+
+    They are looked up once in a process. A faulty file is logged and left out.
+
+    :returns: Vocabulary
+    """
+    global _complete
+    if _complete is None:
+        with _lock:
+            if _complete is None:
+                from rocon_uri.exported_rules import with_exported_rules    # only where it is used
+                _complete = with_exported_rules(current())
+    return _complete
+
+
+def completed(vocabulary: Vocabulary) -> Vocabulary:
+    """
+    The vocabulary to use where the extent of groups matters.
+
+    :param Vocabulary vocabulary: any
+    :returns: Vocabulary: the complete one for the one that stood in for it, else the one given
+    """
+    return complete() if vocabulary is _initial else vocabulary
