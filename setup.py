@@ -5,8 +5,5 @@ from setuptools import find_packages, setup
 setup(**generate_distutils_setup(
     packages=find_packages('src'),
     package_dir={'': 'src'},
-    package_data={'': ['py.typed', '*.json']},
-    entry_points={'console_scripts': ['rocon_uri = rocon_uri.cli:main']},
-    install_requires=['PyYAML'],
-    python_requires='>=3.8',
+    package_data={'': ['py.typed', '*/*.json']},
 ))
