@@ -1,0 +1,59 @@
+"""
+A RoconURI as the ROS message ``rocon_uri/RoconURI``, and back.
+
+The message class is generated when the package is built, and is first imported when it is needed:
+the rest of the package works without ROS.
+"""
+from __future__ import annotations
+
+from rocon_uri.uri import RoconURI
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+__all__ = ['from_msg', 'to_msg']
+
+
+def to_msg(uri: RoconURI) -> Any:
+    """
+    The message that says what this URI says.
+
+    :param RoconURI uri: a URI
+    :returns: ``rocon_uri.msg.RoconURI``
+    :raises ImportError: where the messages of this package have not been built
+
+    >>> from rocon_uri import parse
+    >>> to_msg(parse('rocon:/turtlebot2|pr2/bob')).hardware_platform
+    ['turtlebot2', 'pr2']
+    """
+    from rocon_uri.msg import RoconURI as Message     # pulls in ROS, so only on demand
+    return Message(concert_name=uri.concert_name,
+                   hardware_platform=uri.hardware_platform.list,
+                   name=uri.name.string,
+                   application_framework=uri.application_framework.list,
+                   operating_system=uri.operating_system.list,
+                   rocon_app=uri.rocon_app)
+
+
+def from_msg(msg: Any) -> RoconURI:
+    """
+    The URI that this message says, checked as :func:`rocon_uri.parse` checks a text.
+
+    Each string of the message is a value as it stands: a ``/``, ``|``, ``#`` or ``%`` in one is
+    never read as syntax. An empty list, like an empty name, stands for any.
+
+    :param msg: ``rocon_uri.msg.RoconURI``, from anybody
+    :returns: RoconURI, equal to the one that the message was made from
+    :raises RoconURIValueError: if a field does not hold what it may in a rocon URI
+
+    >>> from rocon_uri import parse
+    >>> from_msg(to_msg(parse('rocon:/pr2/bob'))) == parse('rocon:/pr2/bob')
+    True
+    """
+    return RoconURI.from_fields(concert_name=msg.concert_name,
+                                hardware_platform=msg.hardware_platform,
+                                name=msg.name,
+                                application_framework=msg.application_framework,
+                                operating_system=msg.operating_system,
+                                rocon_app=msg.rocon_app)

@@ -1,0 +1,119 @@
+"""
+What this machine is, as a rocon URI.
+
+A robot calls it to announce itself, a remocon to say where it runs: the type and the name are
+given, the application framework and the operating system are found out.
+"""
+from __future__ import annotations
+
+import os
+import re
+
+from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.grammar import NAME_LIMIT
+from rocon_uri.vocabulary import complete, current
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Dict, Iterable, List, Optional
+
+__all__ = ['default_robot_name', 'default_robot_type', 'generate_platform_rocon_uri']
+
+#: What a machine is that nobody has told what it is.
+default_robot_type = 'pc'
+
+_OS_RELEASE_FILES = ('/etc/os-release', '/usr/lib/os-release')
+
+
+def generate_platform_rocon_uri(robot_type: str, robot_name: str) -> str:
+    """
+    The rocon URI of this machine, all four fields of it.
+
+    Type and name are made legal. The type need not be registered: whoever reads the text will
+    say so. The application framework is ``ROS_DISTRO`` where that is registered and
+    ``ros_other`` elsewhere; the operating system is the nearest registered value to what
+    rospkg's ``os_detect``, or the system itself, says: the release, the distribution, or
+    ``linux``.
+
+    :param str robot_type: the hardware platform, as ``'turtlebot2'``
+    :param str robot_name: what this robot is called
+    :returns: str, as ``'rocon:/pc/bob/noetic/focal'``
+    :raises RoconURIValueError: if the type or the name is empty
+
+    >>> generate_platform_rocon_uri('turtlebot2', 'Cybernetic Pirate').split('/')[:3]
+    ['rocon:', 'turtlebot2', 'cybernetic_pirate']
+    """
+    return 'rocon:/%s/%s/%s/%s' % (_legal_name(robot_type, 'hardware_platform'),
+                                   _legal_name(robot_name, 'name'),
+                                   _application_framework(), _operating_system())
+
+
+def default_robot_name() -> str:
+    """
+    The name of a robot that nobody has named: this machine's host name, without its domain.
+
+    :returns: str, to be made legal by :func:`generate_platform_rocon_uri`; never empty
+
+    >>> '.' in default_robot_name()
+    False
+    """
+    import platform     # costs more than the rest of the package, and only two functions need it
+    return platform.node().partition('.')[0] or 'localhost'
+
+
+def _legal_name(text: str, field: str) -> str:
+    """The text as a ROS base name: lower case, ``_`` for what may not stand in one."""
+    if not text:
+        raise RoconURIValueError('%s %s is empty, expected at least one character'
+                                 % (field, quoted(text)), field=field)
+    name = re.sub('[^a-z0-9_]', '_', text.lower())
+    return (name if name[0].isalpha() else 'r' + name)[:NAME_LIMIT]
+
+
+def _application_framework() -> str:
+    distribution = os.environ.get('ROS_DISTRO', '')     # Debian's ROS sets it to 'Debian'
+    return _first_registered('application_framework', [distribution]) or 'ros_other'
+
+
+def _operating_system() -> str:
+    names = [name.lower() for name in _system_names()]
+    return _first_registered('operating_system', names) or 'linux'
+
+
+def _first_registered(field: str, names: Iterable[str]) -> Optional[str]:
+    for name in filter(None, names):
+        if name in current().field(field) or name in complete().field(field):
+            return name
+    return None
+
+
+def _system_names() -> List[str]:
+    """What this system may be called, the most exact name first."""
+    try:
+        import rospkg.os_detect     # slow to import, and not there without ROS
+        name, _, codename = rospkg.os_detect.OsDetect().detect_os()
+        return [codename, name + codename, name]
+    except Exception:       # whatever its detectors stumble over, a robot can say what it is
+        return _system_names_without_rospkg()
+
+
+def _system_names_without_rospkg() -> List[str]:
+    import platform     # see default_robot_name
+    system, release = platform.system(), platform.release()
+    if system != 'Linux':
+        return [system + release, {'Darwin': 'osx'}.get(system, system)]
+    facts = _os_release()
+    return [facts.get('VERSION_CODENAME', ''), facts.get('ID', ''),
+            *facts.get('ID_LIKE', '').split()]
+
+
+def _os_release() -> Dict[str, str]:
+    """What the first of its files that can be read says, as in os-release(5)."""
+    for path in _OS_RELEASE_FILES:
+        try:
+            with open(path, encoding='utf-8', errors='replace') as lines:
+                pairs = [line.strip().partition('=') for line in lines]
+        except OSError:
+            continue
+        return {key: value.strip('\'"') for key, _, value in pairs}
+    return {}
