@@ -1,0 +1,73 @@
+"""The script as users start it: rosrun, in the ROS environment that these tests run in."""
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).resolve().parents[2] / 'examples'
+
+
+def is_in_ros_package_path() -> bool:
+    find = ['rospack', 'find', 'rocon_uri']
+    return (shutil.which('rosrun') is not None
+            and subprocess.run(find, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL).returncode == 0)
+
+
+pytestmark = pytest.mark.skipif(not is_in_ros_package_path(),
+                                reason='no ROS environment with rocon_uri in it')
+
+
+def rosrun(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(['rosrun', 'rocon_uri', 'rocon_uri', *arguments],
+                          env=dict(os.environ, **environment), stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+
+
+def test_parse_shows_the_fields():
+    done = rosrun('parse', 'rocon:/turtlebot2/bob/noetic/focal')
+    assert (done.returncode, done.stderr) == (0, '')
+    for value in 'turtlebot2', 'bob', 'noetic', 'focal':
+        assert value in done.stdout
+
+
+def test_parse_of_a_bad_uri_exits_2():
+    done = rosrun('parse', 'rocon:/turtelbot2')
+    assert (done.returncode, done.stdout) == (2, '')
+    assert "did you mean 'turtlebot2'" in done.stderr
+
+
+@pytest.mark.parametrize('robot, status', [('rocon:/pr2/bob/noetic/focal', 0),
+                                           ('rocon:/pr2/bob/noetic/bookworm', 1)])
+def test_check_exits_with_the_answer(robot, status):
+    done = rosrun('check', 'rocon:/*/*/ros/ubuntu', robot)
+    assert (done.returncode, done.stderr) == (status, '')
+    assert done.stdout
+
+
+def test_match_finds_the_robots_of_the_example_fleet():
+    done = rosrun('match', 'rocon:/turtlebot2', '--in', str(EXAMPLES / 'fleet.txt'))
+    assert (done.returncode, done.stderr) == (0, '')
+    assert 'rocon:/turtlebot2/' in done.stdout
+
+
+def test_another_python_first_on_the_path_changes_nothing(tmp_path):
+    for name in 'python', 'python3':
+        (tmp_path / name).write_text('#!/bin/sh\necho wrong Python >&2\nexit 99\n')
+        (tmp_path / name).chmod(0o755)
+    path = '%s:%s' % (tmp_path, os.environ['PATH'])
+    done = rosrun('parse', 'rocon:/pr2', PATH=path)
+    assert (done.returncode, done.stderr) == (0, '')
+
+
+def test_import_needs_no_ros_until_messages_do():
+    program = ('import sys, rocon_uri\n'
+               'ros = {"genpy", "rosgraph", "roslib", "rospkg", "rospy", "yaml"}\n'
+               'assert not ros & set(sys.modules), ros & set(sys.modules)\n'
+               'from rocon_uri.msg import RoconURI\n')
+    subprocess.run([sys.executable, '-c', program], check=True)

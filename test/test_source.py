@@ -1,0 +1,27 @@
+"""What the source promises about itself: Python 3.8, and a clean bill from the linter."""
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+SOURCES = ['src', 'scripts', 'test', 'setup.py']
+
+
+def check(program: str, *arguments: str) -> None:
+    if shutil.which(program) is None:
+        pytest.skip('%s is not installed' % program)
+    done = subprocess.run([program, *arguments], cwd=str(ROOT), stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, universal_newlines=True)
+    assert done.returncode == 0, done.stdout
+
+
+def test_runs_on_python_3_8():
+    check('vermin', '--target=3.8-', '--no-tips', '--violations', *SOURCES)
+
+
+def test_is_clean():
+    check('ruff', 'check', '--no-cache', *SOURCES)
