@@ -1,0 +1,294 @@
+"""
+The events of PyYAML's parser into the data of `rocon_uri.yaml_source`.
+
+A module of its own since it imports yaml, which is imported only when YAML is read.
+"""
+from __future__ import annotations
+
+import re
+
+import yaml
+from yaml.events import (
+    AliasEvent, MappingEndEvent, MappingStartEvent, ScalarEvent, SequenceEndEvent, StreamEndEvent)
+
+from rocon_uri.exceptions import quoted
+from rocon_uri.yaml_source import (
+    MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, end_position)
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Callable, Dict, List, Optional
+
+__all__ = ['Reader']
+
+_MAX_NUMBER_LENGTH = 256    # characters: converting long ones takes time that grows faster
+_UNFINISHED = object()      # an anchored collection, while it is being read
+_CORE = 'tag:yaml.org,2002:'
+_BOOLS = {form: value for words, value in (('yes true on', True), ('no false off', False))
+          for word in words.split() for form in (word, word.capitalize(), word.upper())}
+_NULLS = dict.fromkeys(['', '~', 'null', 'Null', 'NULL'])
+_WORDS: Dict[str, Optional[bool]] = {**_BOOLS, **_NULLS}
+_START_OF_NUMBER = frozenset('+-.0123456789')
+_integer = re.compile(
+    r'[-+]?(?:0b[01_]+|0[0-7_]+|0|[1-9][0-9_]*|0x[0-9a-fA-F_]+|[1-9][0-9_]*(?::[0-5]?[0-9])+)'
+).fullmatch
+_float = re.compile(
+    r'[-+]?[0-9][0-9_]*\.[0-9_]*(?:[eE][-+][0-9]+)?|\.[0-9][0-9_]*(?:[eE][-+][0-9]+)?'
+    r'|[-+]?[0-9][0-9_]*(?::[0-5]?[0-9])+\.[0-9_]*|[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)'
+).fullmatch
+_unreadable = re.compile(
+    '[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]').search
+_unreadable_escape = re.compile('[\ud800-\udfff]').search
+
+
+def _plain(value: str) -> Any:
+    """The value of a scalar without quotes and tag; ValueError if it is a number out of reach."""
+    if value in _WORDS:
+        return _WORDS[value]
+    if value[0] in _START_OF_NUMBER:
+        if _integer(value):
+            return _to_int(value)
+        if _float(value):
+            return _to_float(value)
+    return value
+
+
+def _to_int(value: str) -> int:
+    """The value of an integer as YAML 1.1 writes them."""
+    if len(value) > _MAX_NUMBER_LENGTH or not _integer(value):
+        raise ValueError
+    digits = value.replace('_', '').lstrip('+-')
+    if ':' in digits:
+        number = 0
+        for part in digits.split(':'):
+            number = number * 60 + int(part)
+    elif digits[:2] in ('0b', '0x'):
+        number = int(digits, 0)
+    else:
+        number = int(digits, 8 if digits[0] == '0' else 10)
+    return -number if value[0] == '-' else number
+
+
+def _to_float(value: str) -> float:
+    """The value of a floating point number as YAML 1.1 writes them, or of an integer."""
+    if _integer(value):
+        return float(_to_int(value))
+    if len(value) > _MAX_NUMBER_LENGTH or not _float(value):
+        raise ValueError
+    digits = value.replace('_', '').lstrip('+-').lower()
+    number, base = 0.0, 1
+    if ':' in digits:
+        for part in reversed(digits.split(':')):
+            number += float(part) * base
+            base *= 60
+    else:
+        number = float(digits.lstrip('.') if digits[1:] in ('inf', 'nan') else digits)
+    return -number if value[0] == '-' else number
+
+
+_TAGGED: Dict[str, Callable[[str], Any]] = {
+    _CORE + 'str': str, _CORE + 'int': _to_int, _CORE + 'float': _to_float,
+    _CORE + 'bool': _BOOLS.__getitem__, _CORE + 'null': _NULLS.__getitem__}
+
+
+class Reader:
+    """
+    One reading of one text: the parser's events, turned into data as they come.
+
+    Nested collections are nested calls, so that the state of each is in plain local variables.
+    """
+
+    def __init__(self, text: str, file_name: str) -> None:
+        self.text = text
+        self.file_name = file_name
+        self.anchors: Dict[str, Any] = {}
+        self.left_to_add = MAX_SIZE     # what aliases and merges may still add
+
+    def document(self) -> Any:
+        """The data of the only document."""
+        try:
+            if hasattr(yaml, 'CSafeLoader'):
+                self.next_event = yaml.CSafeLoader(self.text).get_event
+            else:
+                self.next_event = self._without_surrogates(yaml.SafeLoader(self.text).get_event)
+            self.next_event()           # the start of the stream
+            event = self.next_event()
+            if event.__class__ is StreamEndEvent:
+                return None
+            data = self._node(self.next_event(), 0)
+            self.next_event()           # the end of the document
+            event = self.next_event()
+            if event.__class__ is not StreamEndEvent:
+                raise self._error('a second document starts here, where one is expected', event)
+            return data
+        except YamlError:
+            raise
+        # Beside its own errors, the parser in Python raises what int() and chr() do.
+        except (yaml.YAMLError, ValueError, OverflowError) as error:
+            raise self._parser_error(error) from error
+
+    def _mapping(self, start: Any, depth: int) -> YamlMapping:
+        """The mapping whose start event this is."""
+        next_event, scalar = self.next_event, self._scalar
+        mark = start.start_mark
+        mapping = YamlMapping(mark.line, mark.column)
+        positions = mapping._positions
+        merged: List[YamlMapping] = []
+        while True:
+            event = next_event()
+            if event.__class__ is ScalarEvent:
+                key = scalar(event)
+            elif event.__class__ is MappingEndEvent:
+                break
+            else:
+                key = self._key(event, depth)
+            value_event = next_event()
+            if value_event.__class__ is ScalarEvent:
+                value = scalar(value_event)
+            else:
+                value = self._node(value_event, depth)
+            if key == '<<' and event.__class__ is ScalarEvent and event.implicit[0]:
+                merged += self._merged(value, value_event)
+                continue
+            mark, value_mark = event.start_mark, value_event.start_mark
+            if key in mapping:
+                mapping.repeated.append((key, mapping[key], (mark.line + 1, mark.column + 1)))
+            mapping[key] = value
+            positions[key] = mark.line, mark.column, value_mark.line, value_mark.column
+        if merged:
+            mapping._merge(merged)
+        return mapping
+
+    def _sequence(self, start: Any, depth: int) -> YamlSequence:
+        """The sequence whose start event this is."""
+        mark = start.start_mark
+        sequence = YamlSequence(mark.line, mark.column)
+        while True:
+            event = self.next_event()
+            if event.__class__ is SequenceEndEvent:
+                return sequence
+            sequence.append(self._node(event, depth))
+            mark = event.start_mark
+            sequence._positions.append((mark.line, mark.column))
+
+    def _node(self, event: Any, depth: int) -> Any:
+        """The data that begins with this event, inside ``depth`` collections."""
+        if event.__class__ is ScalarEvent:
+            return self._scalar(event)
+        if event.__class__ is AliasEvent:
+            return self._alias(event, depth)
+        if depth == MAX_DEPTH:
+            raise self._error('nested deeper than %d' % MAX_DEPTH, event)
+        kind, read = (('map', self._mapping) if event.__class__ is MappingStartEvent
+                      else ('seq', self._sequence))
+        if event.tag not in (None, '!', _CORE + kind):
+            raise self._tag_error(event)
+        if event.anchor is None:
+            return read(event, depth + 1)
+        self._open_anchor(event)
+        data = self.anchors[event.anchor] = read(event, depth + 1)
+        return data
+
+    def _scalar(self, event: Any) -> Any:
+        """The value of a scalar."""
+        plain, quoted_or_block = event.implicit
+        value = event.value
+        if not quoted_or_block:
+            if not plain and event.tag not in _TAGGED:
+                raise self._tag_error(event)
+            try:
+                value = _plain(value) if plain else _TAGGED[event.tag](value)
+            except (KeyError, ValueError, OverflowError):
+                raise self._error('%s cannot be read as %s' % (
+                    quoted(value), 'a number' if plain else _shown_tag(event.tag)), event) from None
+        if event.anchor is not None:
+            self._open_anchor(event)
+            self.anchors[event.anchor] = value
+        return value
+
+    def _key(self, event: Any, depth: int) -> Any:
+        """The key that an alias is; a collection is none."""
+        if event.__class__ is AliasEvent:
+            key = self._alias(event, depth)
+            if not isinstance(key, (YamlMapping, YamlSequence)):
+                return key
+        raise self._error('a collection cannot be a key, text is expected', event)
+
+    def _merged(self, value: Any, event: Any) -> List[YamlMapping]:
+        """The mappings that a merge key brings, the ones that win last."""
+        sources = value[::-1] if isinstance(value, YamlSequence) else [value]
+        for source in sources:
+            if not isinstance(source, YamlMapping):
+                raise self._error("'<<' merges a mapping or a list of mappings, nothing else",
+                                  event)
+            self._add(len(source), event)
+        return sources
+
+    def _open_anchor(self, event: Any) -> None:
+        """Note that a node has an anchor, before what it holds is read."""
+        if event.anchor in self.anchors:
+            raise self._error('anchor %s is defined twice' % quoted('&' + event.anchor), event)
+        self.anchors[event.anchor] = _UNFINISHED
+
+    def _alias(self, event: Any, depth: int) -> Any:
+        """The data that an alias stands for, after making sure that it is not too much."""
+        name = quoted('*' + event.anchor)
+        if event.anchor not in self.anchors:
+            raise self._error('alias %s has no anchor before it' % name, event)
+        data = self.anchors[event.anchor]
+        if data is _UNFINISHED:
+            raise self._error('alias %s is within what it stands for' % name, event)
+        self._measure(data, event, depth)
+        return data
+
+    def _measure(self, data: Any, event: Any, depth: int) -> None:
+        """Count what an alias adds, and see that it is not nested too deep where it stands."""
+        if isinstance(data, (YamlMapping, YamlSequence)):
+            if depth == MAX_DEPTH:
+                raise self._error('nested deeper than %d' % MAX_DEPTH, event)
+            for item in data:
+                self._measure(item, event, depth + 1)
+            if isinstance(data, YamlMapping):
+                for item in data.values():
+                    self._measure(item, event, depth + 1)
+        self._add(1 + (len(data) if isinstance(data, str) else 0), event)
+
+    def _add(self, size: int, event: Any) -> None:
+        """Count what an alias or a merge adds."""
+        self.left_to_add -= size
+        if self.left_to_add < 0:
+            raise self._error('aliases add more than 1 MiB', event)
+
+    def _without_surrogates(self, get_event: Callable[[], Any]) -> Callable[[], Any]:
+        r"""The parser in Python lets ``"\ud800"`` through; libyaml does not."""
+        def next_event() -> Any:
+            event = get_event()
+            if _unreadable_escape(getattr(event, 'value', '')):
+                raise self._error('found invalid Unicode character escape code', event)
+            return event
+        return next_event
+
+    def _tag_error(self, event: Any) -> YamlError:
+        return self._error('tag %s is not one of the core types, and no other is read'
+                           % quoted(_shown_tag(event.tag)), event)
+
+    def _error(self, problem: str, event: Any) -> YamlError:
+        mark = event.start_mark
+        return YamlError(problem, self.file_name, mark.line + 1, mark.column + 1)
+
+    def _parser_error(self, error: Exception) -> YamlError:
+        """What the parser has to say, on one line."""
+        unreadable = _unreadable(self.text)
+        mark = getattr(error, 'problem_mark', None) or getattr(error, 'context_mark', None)
+        if mark is None and unreadable is not None:
+            return YamlError('character U+%04X is not allowed' % ord(unreadable.group()),
+                             self.file_name, *end_position(self.text[:unreadable.start()]))
+        parts = [getattr(error, 'problem', None), getattr(error, 'context', None)]
+        problem = ' '.join(part for part in parts if part) or 'cannot be read: %s' % error
+        line, column = (1, 1) if mark is None else (mark.line + 1, mark.column + 1)
+        return YamlError(problem, self.file_name, line, column)
+
+
+def _shown_tag(tag: str) -> str:
+    """The tag as people write it."""
+    return '!!' + tag[len(_CORE):] if tag.startswith(_CORE) else tag

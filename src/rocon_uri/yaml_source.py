@@ -1,0 +1,277 @@
+"""
+Untrusted YAML (and JSON, a subset of it) into plain data that knows its lines.
+
+``load`` reads a text and ``load_file`` a file. What comes back is what ``yaml.safe_load`` gives,
+except that mappings are `YamlMapping`, a ``dict``, and sequences `YamlSequence`, a ``list``, which
+also answer where in the text a key, a value or an item begins:
+
+>>> source = load('topics:\\n  scan: sensor_msgs/LaserScan\\n', 'laser.yaml')
+>>> source['topics']
+{'scan': 'sensor_msgs/LaserScan'}
+>>> source['topics'].key_position('scan'), source['topics'].value_position('scan')
+((2, 3), (2, 9))
+
+Positions are (line, column), both counted from 1. Whatever the text holds, it is read, or refused
+with one `YamlError` that says where:
+
+>>> load('topics: [', 'laser.yaml')
+Traceback (most recent call last):
+    ...
+rocon_uri.yaml_source.YamlError: laser.yaml:2:1: did not find expected node content while \
+parsing a flow node
+
+What a text may cost is bounded: 1 MiB of text, collections nested 100 deep, and 1 MiB that aliases
+and merges add. An alias gives the same object again, not a copy. The text is read from the parser's
+events, never composed or loaded: libyaml's composer overruns the stack on a few tens of thousands
+of ``[``.
+
+- Plain scalars have the types of YAML 1.1, as in ``yaml.safe_load`` (``yes``, ``0x1F``, ``1:30``),
+  but for dates and ``=``, which stay text. A number of over 256 characters is refused.
+- A tag makes nothing: the core types' tags (``!!str``, ``!!int``, ...) are read, others are refused.
+- Merge keys (``<<``) are read; a mapping's own keys win over merged ones, wherever they stand.
+- A repeated key is not an error here. The last one wins, and ``YamlMapping.repeated`` lists what
+  was lost; ``1``, ``1.0`` and ``true`` are one key, as in Python. A collection as key is refused.
+- One document; an empty text is ``None``.
+- Text is UTF-8, or UTF-16 with a byte order mark. A lone surrogate or a control character that
+  is not escaped is refused.
+"""
+from __future__ import annotations
+
+import re
+
+from rocon_uri.exceptions import near_misses, quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from os import PathLike
+    from typing import Any, Dict, List, Optional, Tuple, Union
+
+    Position = Tuple[int, int]
+
+__all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'load',
+           'load_file', 'located', 'near_misses', 'quoted', 'read_file']
+
+MAX_SIZE = 2 ** 20      # bytes of a file, characters of a text, and what aliases may add
+MAX_DEPTH = 100         # collections in one another
+_MAX_TAG_DIRECTIVES = 100   # libyaml compares each with all before it
+
+_split_lines = re.compile('\r\n|[\r\n\x85\u2028\u2029]').split
+
+
+def located(problem: str, file_name: str, line: Optional[int], column: Optional[int]) -> str:
+    """
+    A problem with the place that it is at in front, in the form that editors know.
+
+    :param str problem: what is wrong
+    :param str file_name: where the text is from
+    :param int line: counted from 1, or ``None`` where it is not known
+    :param int column: counted from 1, or ``None``
+    :returns: str of one line
+
+    >>> located("topic 'scan' has no type", 'laser.yaml', 12, 5)
+    "laser.yaml:12:5: topic 'scan' has no type"
+    """
+    place = file_name if line is None else '%s:%s:%s' % (file_name, line, column)
+    return ''.join(c if c.isprintable() else repr(c)[1:-1] for c in '%s: %s' % (place, problem))
+
+
+class YamlError(ValueError):
+    """
+    A text that is not YAML, or more of it than is read.
+
+    :param str problem: what is wrong
+    :param str file_name: where the text is from
+    :param int line: where in it, counted from 1
+    :param int column: counted from 1
+
+    The attributes have the names of the parameters.
+
+    >>> print(YamlError('nested deeper than 100', 'laser.yaml', 1, 101))
+    laser.yaml:1:101: nested deeper than 100
+    """
+
+    def __init__(self, problem: str, file_name: str, line: int, column: int) -> None:
+        super().__init__(problem, file_name, line, column)
+        self.problem = problem
+        self.file_name = file_name
+        self.line = line
+        self.column = column
+
+    def __str__(self) -> str:
+        return located(self.problem, self.file_name, self.line, self.column)
+
+
+class YamlMapping(dict):    # type: ignore[type-arg]    # dict[...] is not to be had in Python 3.8
+    """
+    A mapping read from YAML, in the order of the file: a ``dict`` that knows its positions.
+
+    Keys are ``str``, ``int``, ``float``, ``bool`` or ``None``. Positions are those of the reading;
+    a key that is put in later has none.
+    """
+
+    __slots__ = ('_start', '_positions', 'repeated')
+
+    def __init__(self, line: int, column: int) -> None:
+        super().__init__()
+        self._start = line, column
+        self._positions: Dict[Any, Tuple[int, int, int, int]] = {}
+        #: What was lost to a repeated key: a list of (key, its earlier value, position of the
+        #: repetition), empty as a rule.
+        self.repeated: List[Tuple[Any, Any, Position]] = []
+
+    @property
+    def position(self) -> Position:
+        """Where the mapping begins: (line, column)."""
+        return self._start[0] + 1, self._start[1] + 1
+
+    def key_position(self, key: Any) -> Position:
+        """
+        Where the key stands. (That of the last one, if it is repeated.)
+
+        :param key: a key of the mapping
+        :returns: (int, int), line and column
+        :raises KeyError: if it was not read
+
+        >>> load('a: b', 'f').key_position('a')
+        (1, 1)
+        """
+        line, column, _, _ = self._positions[key]
+        return line + 1, column + 1
+
+    def value_position(self, key: Any) -> Position:
+        """
+        Where the value of the key begins; where an alias stands, if it is one.
+
+        :param key: a key of the mapping
+        :returns: (int, int), line and column
+        :raises KeyError: if it was not read
+
+        >>> load('a: b', 'f').value_position('a')
+        (1, 4)
+        """
+        _, _, line, column = self._positions[key]
+        return line + 1, column + 1
+
+    def _merge(self, sources: List[YamlMapping]) -> None:
+        """Put the keys of the sources before one's own, a later one's over an earlier one's."""
+        own, own_positions = dict(self), self._positions.copy()
+        self.clear()
+        self._positions.clear()
+        for source in sources:
+            self.update(source)
+            self._positions.update(source._positions)
+        self.update(own)
+        self._positions.update(own_positions)
+
+
+class YamlSequence(list):   # type: ignore[type-arg]
+    """A sequence read from YAML: a ``list`` that knows its positions, those of the reading."""
+
+    __slots__ = ('_start', '_positions')
+
+    def __init__(self, line: int, column: int) -> None:
+        super().__init__()
+        self._start = line, column
+        self._positions: List[Position] = []
+
+    @property
+    def position(self) -> Position:
+        """Where the sequence begins: (line, column)."""
+        return self._start[0] + 1, self._start[1] + 1
+
+    def item_position(self, index: int) -> Position:
+        """
+        Where an item begins; where an alias stands, if it is one.
+
+        :param int index: which item
+        :returns: (int, int), line and column
+        :raises IndexError: if it was not read
+
+        >>> load('[a, b]', 'f').item_position(1)
+        (1, 5)
+        """
+        line, column = self._positions[index]
+        return line + 1, column + 1
+
+
+def load(content: Union[str, bytes], file_name: str = '<string>') -> Any:
+    """
+    Read one YAML document.
+
+    :param content: the text, str or bytes
+    :param str file_name: the name that errors give
+    :returns: `YamlMapping`, `YamlSequence`, str, int, float, bool or None
+    :raises YamlError: if it is not YAML or passes a limit
+
+    >>> load('[yes, 0x1F, 2014-01-01]')
+    [True, 31, '2014-01-01']
+    """
+    if len(content) > MAX_SIZE:
+        raise YamlError('larger than 1 MiB, which is all that is read', file_name, 1, 1)
+    # Here, since it imports yaml, which who reads no YAML need not have.
+    from rocon_uri._yaml_events import Reader
+    return Reader(_text(content, file_name), file_name).document()
+
+
+def load_file(path: Union[str, PathLike[str]]) -> Any:
+    """
+    Read a file that holds one YAML document.
+
+    :param path: the file, str or path object
+    :returns: as `load`
+    :raises YamlError: if it is not YAML or passes a limit
+    :raises OSError: if it cannot be read, or is not a regular file
+
+    >>> load_file('test/unit/specs/interfaces/RGBCamera.yaml')['name']
+    'RGBCamera'
+    """
+    return load(read_file(path), str(path))
+
+
+def read_file(path: Union[str, PathLike[str]]) -> bytes:
+    """
+    The content of a regular file, as far as `load` needs it to see that it is too large.
+
+    :param path: the file, str or path object
+    :returns: bytes, at most one more than 1 MiB
+    :raises OSError: if it cannot be read; a directory, a FIFO and a device are not
+
+    >>> read_file('test/unit/specs/interfaces/RGBCamera.yaml')[:9]
+    b'%YAML 1.1'
+    """
+    import errno
+    import os
+    import stat
+
+    def opener(name: str, flags: int) -> int:
+        # Without O_NONBLOCK, opening a FIFO waits for somebody to write to it.
+        return os.open(name, flags | os.O_NONBLOCK | os.O_NOCTTY)
+
+    try:
+        with open(path, 'rb', opener=opener) as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise OSError(errno.EINVAL, 'Not a regular file', str(path))
+            return file.read(MAX_SIZE + 1)
+    except ValueError as error:     # a NUL or a lone surrogate in the path
+        raise OSError(errno.EINVAL, str(error), str(path)) from error
+
+
+def _text(content: Union[str, bytes], file_name: str) -> str:
+    """The content as text that either parser takes as it is."""
+    if not isinstance(content, str):
+        encoding = 'utf-16' if content[:2] in (b'\xff\xfe', b'\xfe\xff') else 'utf-8'
+        try:
+            content = content.decode(encoding)
+        except UnicodeDecodeError as error:
+            before = content[:error.start].decode(encoding, 'replace')
+            raise YamlError('not %s text: %s' % (encoding.upper(), error.reason), file_name,
+                            *end_position(before)) from error
+    if content.count('%TAG') > _MAX_TAG_DIRECTIVES:
+        raise YamlError('more than %d %%TAG directives' % _MAX_TAG_DIRECTIVES, file_name, 1, 1)
+    return content[1:] if content.startswith('\ufeff') else content
+
+
+def end_position(text: str) -> Position:
+    """The line and column, counted from 1, at which this text ends."""
+    lines = _split_lines(text)
+    return len(lines), len(lines[-1]) + 1
