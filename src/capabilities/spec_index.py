@@ -1,0 +1,308 @@
+"""
+All capability specs of a package path, each by its name, ``package/name``.
+
+A `SpecIndex` hands out the specs themselves, in dicts and lists that are made for each call: to
+change one of those does not change the index, to change a spec does. What it refuses is raised, as
+`DuplicateNameException` or `InterfaceNameNotFoundException`.
+
+It is usually made by `capabilities.discovery.spec_index_from_spec_file_index`.
+"""
+from __future__ import annotations
+
+from rocon_uri.yaml_source import YamlMapping, located, near_misses, quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Dict, Iterable, List, Optional, Tuple, TypeVar, Union
+
+    from capabilities.specs.interface import CapabilityInterface
+    from capabilities.specs.provider import CapabilityProvider
+    from capabilities.specs.semantic_interface import SemanticCapabilityInterface
+
+    Spec = Union[CapabilityInterface, SemanticCapabilityInterface, CapabilityProvider]
+    S = TypeVar('S')
+    Entries = Dict[str, Tuple[S, str]]      # what is there and its path, by name
+
+__all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'SpecIndex']
+
+
+class _RefusedSpec(Exception):
+    """A spec that cannot be indexed; the two exceptions below say why."""
+
+    def __init__(self, msg: str, spec_name: str, package: str, spec_type: str, file_name: str,
+                 line: Optional[int] = None, column: Optional[int] = None) -> None:
+        super().__init__(msg, spec_name, package, spec_type, file_name, line, column)
+        self.msg = msg
+        self.spec_name = spec_name
+        self.package = package
+        self.spec_type = spec_type
+        self.file_name = file_name
+        self.line = line
+        self.column = column
+
+    def __str__(self) -> str:
+        return located(self._problem(), self.file_name, self.line, self.column)
+
+    def _problem(self) -> str:
+        return self.msg
+
+
+class DuplicateNameException(_RefusedSpec):
+    """
+    A spec whose name is taken. Specs of different kinds cannot share a name either.
+
+    Attributes: ``spec_name`` (str, ``package/name``), ``package`` (str), ``spec_type`` (str,
+    ``'interface'``, ``'semantic_interface'`` or ``'provider'``), ``msg`` (str, what is wrong),
+    ``file_name`` (str), and ``line`` and ``column`` (int, counted from 1, or None).
+    """
+
+
+class InterfaceNameNotFoundException(_RefusedSpec):
+    """
+    A semantic interface or provider of an interface that is not there.
+
+    Attributes: those of `DuplicateNameException`, and ``interface`` (str), the name that it
+    redefines or implements.
+    """
+
+    def __init__(self, msg: str, spec_name: str, package: str, spec_type: str, file_name: str,
+                 line: Optional[int] = None, column: Optional[int] = None, interface: str = '',
+                 candidates: Iterable[str] = ()) -> None:
+        super().__init__(msg, spec_name, package, spec_type, file_name, line, column)
+        self.interface = interface
+        self._candidates = candidates
+
+    @property
+    def suggestions(self) -> List[str]:
+        """The interfaces that were probably meant: a list of at most three str."""
+        return near_misses(self.interface, self._candidates)
+
+    def _problem(self) -> str:
+        return self.msg + did_you_mean(self.suggestions)
+
+
+def did_you_mean(suggestions: Iterable[str]) -> str:
+    """
+    The end of an error that knows what was probably meant.
+
+    :param suggestions: iterable of str, the likeliest first
+    :returns: str, empty if there are none
+
+    >>> did_you_mean(['a_package/RGBCamera'])
+    " (did you mean 'a_package/RGBCamera'?)"
+    """
+    meant = ' or '.join(map(quoted, suggestions))
+    return ' (did you mean %s?)' % meant if meant else ''
+
+
+class SpecIndex:
+    """
+    Capability interfaces, semantic interfaces and providers by ``package/name``.
+
+    All are in the order in which they were added, and no two of any kind have the same name. A new
+    index is empty.
+
+    >>> SpecIndex().names
+    []
+    """
+
+    def __init__(self) -> None:
+        self._interfaces: Entries[CapabilityInterface] = {}
+        self._semantic_interfaces: Entries[SemanticCapabilityInterface] = {}
+        self._providers: Entries[CapabilityProvider] = {}
+        self._providers_of: Dict[str, Dict[str, None]] = {}    # sets that keep their order
+        self._implemented: Dict[str, str] = {}
+
+    @property
+    def names(self) -> List[str]:
+        """The names of all specs, a list: interfaces, then semantic interfaces, then providers."""
+        return list(self.specs)
+
+    @property
+    def specs(self) -> Dict[str, Spec]:
+        """All specs by name, a dict, in the order of `names`."""
+        specs: Dict[str, Spec] = {}
+        specs.update(self.interfaces)
+        specs.update(self.semantic_interfaces)
+        specs.update(self.providers)
+        return specs
+
+    @property
+    def interfaces(self) -> Dict[str, CapabilityInterface]:
+        """The interfaces by name, a dict."""
+        return _specs(self._interfaces)
+
+    @property
+    def semantic_interfaces(self) -> Dict[str, SemanticCapabilityInterface]:
+        """The semantic interfaces by name, a dict."""
+        return _specs(self._semantic_interfaces)
+
+    @property
+    def providers(self) -> Dict[str, CapabilityProvider]:
+        """The providers by name, a dict."""
+        return _specs(self._providers)
+
+    @property
+    def interface_names(self) -> List[str]:
+        """The names of the interfaces, a list."""
+        return list(self._interfaces)
+
+    @property
+    def semantic_interface_names(self) -> List[str]:
+        """The names of the semantic interfaces, a list."""
+        return list(self._semantic_interfaces)
+
+    @property
+    def provider_names(self) -> List[str]:
+        """The names of the providers, a list."""
+        return list(self._providers)
+
+    @property
+    def interface_paths(self) -> Dict[str, str]:
+        """The files of the interfaces by name, a dict to str."""
+        return _paths(self._interfaces)
+
+    @property
+    def semantic_interface_paths(self) -> Dict[str, str]:
+        """The files of the semantic interfaces by name, a dict to str."""
+        return _paths(self._semantic_interfaces)
+
+    @property
+    def provider_paths(self) -> Dict[str, str]:
+        """The files of the providers by name, a dict to str."""
+        return _paths(self._providers)
+
+    def providers_of(self, interface_name: str) -> List[str]:
+        """
+        The providers that implement an interface or a semantic interface.
+
+        A provider of a semantic interface does not implement the interface that it redefines, nor
+        the other way round: the two have different ROS names.
+
+        :param str interface_name: ``package/name``
+        :returns: list of str, their names; empty for an interface that is not there
+
+        >>> SpecIndex().providers_of('a_package/RGBCamera')
+        []
+        """
+        return list(self._providers_of.get(interface_name, ()))
+
+    def add_interface(self, interface: CapabilityInterface, file_path: str,
+                      package_name: str) -> None:
+        """
+        Add an interface, whose name becomes ``package/name``.
+
+        :param interface: `CapabilityInterface`; left as it is if it is refused
+        :param str file_path: where it was read from
+        :param str package_name: the package that exports it
+        :raises DuplicateNameException: if the name is taken
+        """
+        name = self._free_name(interface, file_path, package_name)
+        interface.name = name
+        self._interfaces[name] = interface, str(file_path)
+
+    def add_semantic_interface(self, semantic_interface: SemanticCapabilityInterface,
+                               file_path: str, package_name: str) -> None:
+        """
+        Add a semantic interface, whose name becomes ``package/name``.
+
+        :param semantic_interface: `SemanticCapabilityInterface`; left as it is if it is refused
+        :param str file_path: where it was read from
+        :param str package_name: the package that exports it
+        :raises DuplicateNameException: if the name is taken
+        :raises InterfaceNameNotFoundException: if the interface that it redefines is not there; a
+            semantic interface cannot be redefined
+        """
+        name = self._free_name(semantic_interface, file_path, package_name)
+        redefined = semantic_interface.redefines
+        if redefined not in self._interfaces:
+            raise InterfaceNameNotFoundException(
+                'semantic interface %s redefines %s, which is no interface that any package exports'
+                % (quoted(name), quoted(redefined)),
+                name, package_name, semantic_interface.spec_type, str(file_path),
+                *_position(semantic_interface, 'redefines'), redefined, [self._interfaces])
+        semantic_interface.name = name
+        self._semantic_interfaces[name] = semantic_interface, str(file_path)
+
+    def add_provider(self, provider: CapabilityProvider, file_path: str,
+                     package_name: str) -> None:
+        """
+        Add a provider, whose name becomes ``package/name``.
+
+        :param provider: `CapabilityProvider`; left as it is if it is refused
+        :param str file_path: where it was read from
+        :param str package_name: the package that exports it
+        :raises DuplicateNameException: if the name is taken
+        :raises InterfaceNameNotFoundException: if neither an interface nor a semantic interface of
+            the name that it implements is there
+        """
+        name = self._free_name(provider, file_path, package_name)
+        implemented = provider.implements
+        if implemented not in self._interfaces and implemented not in self._semantic_interfaces:
+            raise InterfaceNameNotFoundException(
+                'provider %s implements %s, which is no interface that any package exports'
+                % (quoted(name), quoted(implemented)),
+                name, package_name, provider.spec_type, str(file_path),
+                *_position(provider, 'implements'), implemented,
+                [self._interfaces, self._semantic_interfaces])
+        provider.name = name
+        self._providers[name] = provider, str(file_path)
+        self._implemented[name] = implemented
+        self._providers_of.setdefault(implemented, {})[name] = None
+
+    def remove_interface(self, name: str) -> None:
+        """
+        Take an interface out. What redefines or implements it stays.
+
+        :param str name: ``package/name``
+        :raises KeyError: if no interface has this name
+        """
+        del self._interfaces[name]
+
+    def remove_semantic_interface(self, name: str) -> None:
+        """
+        Take a semantic interface out. What implements it stays.
+
+        :param str name: ``package/name``
+        :raises KeyError: if no semantic interface has this name
+        """
+        del self._semantic_interfaces[name]
+
+    def remove_provider(self, name: str) -> None:
+        """
+        Take a provider out.
+
+        :param str name: ``package/name``
+        :raises KeyError: if no provider has this name
+        """
+        del self._providers[name]
+        del self._providers_of[self._implemented.pop(name)][name]
+
+    def _free_name(self, spec: Spec, file_path: str, package_name: str) -> str:
+        """The name to add a spec by; one that was taken out of an index has it already."""
+        own = spec.name.startswith(package_name + '/')
+        name = spec.name if own else package_name + '/' + spec.name
+        for kind, paths in (('an interface', self._interfaces),
+                            ('a semantic interface', self._semantic_interfaces),
+                            ('a provider', self._providers)):
+            if name in paths:
+                raise DuplicateNameException(
+                    '%s is the name of %s already, in %s' % (
+                        quoted(name), kind, quoted(paths[name][1])),
+                    name, package_name, spec.spec_type, str(file_path), *_position(spec, 'name'))
+        return name
+
+
+def _specs(entries: Entries[S]) -> Dict[str, S]:
+    return {name: spec for name, (spec, _) in entries.items()}
+
+
+def _paths(entries: Entries[S]) -> Dict[str, str]:
+    return {name: path for name, (_, path) in entries.items()}
+
+
+def _position(spec: Spec, key: str) -> Tuple[Optional[int], Optional[int]]:
+    """Where in its file a spec says this, if it was read from one."""
+    if isinstance(spec.source, YamlMapping) and key in spec.source:
+        return spec.source.value_position(key)
+    return None, None
