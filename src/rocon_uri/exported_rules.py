@@ -11,13 +11,16 @@ from __future__ import annotations
 
 import os
 
+from rocon_uri.exceptions import quoted
 from rocon_uri.vocabulary import RulesError, Vocabulary
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Iterator, Tuple
+    from typing import Any, Dict, Iterator, List, Tuple
 
 __all__ = ['read_rules', 'with_exported_rules']
+
+_END_OF_SEARCH = frozenset(('package.xml', 'manifest.xml', 'rospack_nosubdirs'))
 
 
 def read_rules(vocabulary: Vocabulary, path: str) -> Vocabulary:
@@ -45,7 +48,7 @@ def _refuse_repeated_keys(rules: Any, path: str) -> None:
     from rocon_uri.yaml_source import YamlError, YamlMapping
     if isinstance(rules, YamlMapping):
         for key, _, (line, column) in rules.repeated:
-            raise YamlError('%r is there twice' % (key,), path, line, column)
+            raise YamlError('%s is there twice' % quoted(str(key)), path, line, column)
     if isinstance(rules, (dict, list)):
         for below in rules.values() if isinstance(rules, dict) else rules:
             _refuse_repeated_keys(below, path)
@@ -79,30 +82,50 @@ def with_exported_rules(vocabulary: Vocabulary) -> Vocabulary:
 
 
 def _paths() -> Iterator[str]:
-    for manifest in _manifests_with_rules():
-        for path in manifest.get_export('rocon_uri', 'rules'):
-            yield os.path.join(os.path.dirname(manifest.filename), path)
+    for paths in _exported_paths().values():
+        yield from paths
     for path in os.environ.get('ROCON_URI_RULES', '').split(os.pathsep):
         if path:
             yield path
 
 
-def _manifests_with_rules() -> Iterator[Any]:
+def _exported_paths() -> Dict[str, List[str]]:
+    """The files of rules by package; one that is found first hides those of its name."""
+    exported: Dict[str, List[str]] = {}
     try:
         import rospkg       # not there without ROS
     except ImportError:
-        return
-    packages = rospkg.RosPack()
-    for package in sorted(packages.list()):
-        path = os.path.join(packages.get_path(package), 'package.xml')
+        return exported
+    from xml.etree import ElementTree       # here, since it costs more than a known value may
+    for folder in _package_folders(rospkg.RosPack().get_ros_paths()):
+        manifest = os.path.join(folder, 'package.xml')
+        # rospkg itself gives up at the first manifest that is no XML, and loads rosdep to read one.
         try:
-            # Few packages export rules, and to parse the manifests of all takes seconds.
-            with open(path, 'rb') as manifest_file:
-                if b'rocon_uri' not in manifest_file.read():
-                    continue
-            yield packages.get_manifest(package)
-        except Exception as error:      # whatever rospkg finds wrong with somebody's package
-            _warn('rules of package %s left out: %s', package, error)
+            package = ElementTree.parse(manifest)
+        except Exception as error:      # whatever is wrong with somebody's package
+            _warn('rules of a package left out: %s: %s', manifest, error)
+            continue
+        rules = (export.get('rules') for export in package.iterfind('export/rocon_uri'))
+        exported.setdefault((package.findtext('name') or folder).strip(), [
+            os.path.join(folder, path.replace('${prefix}', folder)) for path in rules if path])
+    return exported
+
+
+def _package_folders(ros_paths: List[str]) -> Iterator[str]:
+    """The folders with a package.xml, found as rospkg finds them, but none of them twice."""
+    visited = set()
+    for ros_path in ros_paths:
+        for folder, subfolders, files in os.walk(ros_path, followlinks=True):
+            place = os.path.realpath(folder)
+            is_new = place not in visited and 'CATKIN_IGNORE' not in files
+            visited.add(place)
+            if is_new and 'package.xml' in files:
+                yield folder
+            if (is_new and _END_OF_SEARCH.isdisjoint(files)
+                    and not folder.startswith('/usr/share/')):
+                subfolders[:] = sorted(name for name in subfolders if name[0] != '.')
+            else:
+                subfolders.clear()
 
 
 def _warn(text: str, *details: Any) -> None:
