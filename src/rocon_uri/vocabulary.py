@@ -11,12 +11,13 @@ import itertools
 import os
 import threading
 
+from rocon_uri.exceptions import quoted
 from rocon_uri.grammar import NAME_LIMIT, VOCABULARY_FIELDS
 from rocon_uri.ros_names import is_legal_base_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple
+    from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
 
 __all__ = ['FieldVocabulary', 'RulesError', 'Vocabulary', 'complete', 'completed', 'current',
            'members']
@@ -173,17 +174,16 @@ class FieldVocabulary:
         :raises RulesError: for a name that is no ROS base name or is in two groups
         """
         parents = dict(self._parents)
-        waiting: List[Tuple[Optional[str], Any, Tuple[Any, ...]]] = [(None, rules, path)]
+        # In the order of the rules and in depth: what a group is in is known once it is extended.
+        waiting = [(None, entry) for entry in members(rules, path)][::-1]
         while waiting:
-            parent, below, path = waiting.pop()
-            for name, rest, place in members(below, path):
-                _check_name(self.name, name, place)
-                known = parents.setdefault(name, parent)
-                if parent is not None and known != parent:
-                    raise RulesError("%s '%s' cannot be in '%s', since it is %s already" % (
-                        self.name, name, parent,
-                        "in '%s'" % known if known else 'in no group'), place)
-                waiting.append((name, rest, place))
+            parent, (name, below, place) = waiting.pop()
+            _check_name(self.name, name, place)
+            known = parents.setdefault(name, parent)
+            if parent is not None and known != parent:
+                raise RulesError("%s '%s' cannot be in '%s', since it is %s already" % (
+                    self.name, name, parent, "in '%s'" % known if known else 'in no group'), place)
+            waiting += [(name, entry) for entry in members(below, place)][::-1]
         return FieldVocabulary(self.name, parents)
 
 
@@ -191,7 +191,6 @@ def _check_name(field: str, name: Any, path: Tuple[Any, ...]) -> None:
     if not isinstance(name, str):
         raise RulesError('%s %r is not text; put it in quotes' % (field, name), path)
     if not is_legal_base_name(name) or len(name) > NAME_LIMIT:
-        from rocon_uri.exceptions import quoted     # here, since only a fault needs it
         raise RulesError('%s %s is not a ROS base name (a letter, then letters, digits and _)'
                          % (field, quoted(name)), path)
 
@@ -202,7 +201,7 @@ class Vocabulary:
 
     :param rules: mapping from ``'hardware_platform'``, ``'application_framework'`` and
         ``'operating_system'`` to nested groups: mappings from a group to what is in it, lists of
-        values and of such mappings, or a mix
+        values and of such mappings, or a mix; a list of such mappings is the same
     :raises RulesError: for rules that do not fit
 
     >>> ours = Vocabulary({'hardware_platform': {'robot': ['bender']}})
@@ -212,7 +211,7 @@ class Vocabulary:
 
     __slots__ = ('_fields', '_opened', 'is_open', 'serial', 'fields_read', 'uris_read')
 
-    def __init__(self, rules: Mapping[str, Any]) -> None:
+    def __init__(self, rules: Any) -> None:
         fields = {name: FieldVocabulary(name, {}) for name in VOCABULARY_FIELDS}
         self._adopt(_extended(fields, rules))
 
@@ -273,7 +272,7 @@ class Vocabulary:
             self._opened = self if self.is_open else Vocabulary._of(self._fields, is_open=True)
         return self._opened
 
-    def extended(self, rules: Mapping[str, Any]) -> 'Vocabulary':
+    def extended(self, rules: Any) -> 'Vocabulary':
         """
         This vocabulary with more values and groups.
 
@@ -301,13 +300,11 @@ class Vocabulary:
 def _extended(fields: Mapping[str, FieldVocabulary],
               rules: Any) -> Dict[str, FieldVocabulary]:
     extended = dict(fields)
-    if not isinstance(rules, dict):
-        raise RulesError('rules are a mapping from fields to their values')
-    for name, below in rules.items():
-        if name not in extended:
-            raise RulesError("'%s' is no field with registered values; these are: %s"
-                             % (name, ', '.join(VOCABULARY_FIELDS)), (name,))
-        extended[name] = extended[name].extended(below, (name,))
+    for name, below, path in members(rules):
+        if name not in VOCABULARY_FIELDS:
+            raise RulesError('%s is no field with registered values; these are: %s'
+                             % (quoted(str(name)), ', '.join(VOCABULARY_FIELDS)), path)
+        extended[name] = extended[name].extended(below, path)
     return extended
 
 
