@@ -1,0 +1,198 @@
+"""
+What the three kinds of capability specs share: names, errors, and what every spec has.
+
+A spec that cannot be used is refused with an `InvalidSpec` that says where. What is odd and does
+no harm (a key that nobody knows, a repeated description) is logged to ``capabilities.specs``, and
+kept in the spec's ``warnings``.
+"""
+from __future__ import annotations
+
+from collections import namedtuple
+
+from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.yaml_source import located, quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Dict, Optional, Tuple
+
+__all__ = ['NO_DESCRIPTION', 'CapabilitySpec', 'InvalidSpec', 'SpecName', 'SpecWarning', 'shown',
+           'split_spec_name', 'validate_spec_name']
+
+NO_DESCRIPTION = 'No description given.'
+
+
+class InvalidSpec(ValueError):
+    """
+    A capability spec that is not complete, or has an entry that cannot be used.
+
+    :param str msg: what is wrong, without the place
+    :param str file_name: where the spec is from
+    :param int line: where in it, counted from 1; ``None`` where it was no text
+    :param int column: counted from 1, or ``None``
+
+    The attributes have the names of the parameters.
+
+    >>> print(InvalidSpec("topic 'scan' has no type", 'laser.yaml', 12, 5))
+    laser.yaml:12:5: topic 'scan' has no type
+    """
+
+    def __init__(self, msg: str, file_name: str, line: Optional[int] = None,
+                 column: Optional[int] = None) -> None:
+        super().__init__(msg, file_name, line, column)
+        self.msg = msg
+        self.file_name = file_name
+        self.line = line
+        self.column = column
+
+    def __str__(self) -> str:
+        return located(self.msg, self.file_name, self.line, self.column)
+
+
+class SpecWarning(namedtuple('SpecWarning', 'msg file_name line column')):
+    """
+    Something in a spec that is odd, and ignored. The fields are those of `InvalidSpec`.
+
+    >>> print(SpecWarning("unknown key 'colour'", 'laser.yaml', 3, 1))
+    laser.yaml:3:1: unknown key 'colour'
+    """
+
+    __slots__ = ()
+
+    def __str__(self) -> str:
+        return located(*self)
+
+
+class SpecName(str):
+    """
+    The name of a spec, ``package/name``: a ``str`` that knows its parts.
+
+    :param str name: package and name with a ``/`` between, each a ROS base name
+    :raises ValueError: if it is not of that form
+
+    >>> name = SpecName('a_package/RGBCamera')
+    >>> name.package, name.name, name == 'a_package/RGBCamera'
+    ('a_package', 'RGBCamera', True)
+    """
+
+    __slots__ = ()
+
+    def __new__(cls, name: str) -> SpecName:
+        package, _, own_name = name.partition('/') if isinstance(name, str) else ('', '', '')
+        if not (is_legal_base_name(package) and is_legal_base_name(own_name)):
+            raise ValueError('%s is not the name of a spec, expected package/name' % shown(name))
+        return super().__new__(cls, name)
+
+    @property
+    def package(self) -> str:
+        """The package that exports the spec, a str."""
+        return self.partition('/')[0]
+
+    @property
+    def name(self) -> str:
+        """The name of the spec within its package, a str."""
+        return self.partition('/')[2]
+
+
+def validate_spec_name(name: str) -> SpecName:
+    """
+    The name of a spec, checked.
+
+    :param str name: ``package/name``
+    :returns: `SpecName`
+    :raises ValueError: if it is not of that form
+
+    >>> validate_spec_name('a_package/RGBCamera').package
+    'a_package'
+    """
+    return SpecName(name)
+
+
+def split_spec_name(name: str) -> Tuple[str, str]:
+    """
+    The package and the name that the name of a spec is made of.
+
+    :param str name: ``package/name``
+    :returns: (str, str)
+    :raises ValueError: if it is not of that form
+
+    >>> split_spec_name('a_package/RGBCamera')
+    ('a_package', 'RGBCamera')
+    """
+    spec_name = SpecName(name)
+    return spec_name.package, spec_name.name
+
+
+class CapabilitySpec:
+    """
+    What every spec has. Its attributes can be set; equal specs say the same in the same words.
+
+    - ``name`` (str): as in the file; ``package/name`` once it is indexed
+    - ``spec_type`` (str): ``'interface'``, ``'provider'`` or ``'semantic_interface'``
+    - ``spec_version`` (int): 1
+    - ``description`` (str): ``'No description given.'`` if there is none
+    - ``file_name`` (str or None): where it was read from
+    - ``source`` (dict or None): what it was read from; a `rocon_uri.yaml_source.YamlMapping`, which
+      knows its lines, if that was a text
+    - ``warnings`` (tuple of `SpecWarning`): what was odd in it
+    """
+
+    spec_type = ''
+
+    def __init__(self, name: str, spec_version: int, description: Optional[str]) -> None:
+        self.name = name
+        self.spec_version = spec_version
+        self.description = NO_DESCRIPTION if description is None else description
+        self.file_name: Optional[str] = None
+        self.source: Optional[Dict[Any, Any]] = None
+        self.warnings: Tuple[SpecWarning, ...] = ()
+
+    def to_dict(self) -> Dict[str, Any]:
+        """
+        The spec as plain data, in the order of the file.
+
+        :returns: dict, from which ``..._from_dict`` makes an equal spec
+        """
+        head = {'name': str(self.name), 'spec_version': self.spec_version,
+                'spec_type': self.spec_type}
+        if self.description != NO_DESCRIPTION:
+            head['description'] = str(self.description)
+        return head
+
+    def to_yaml(self) -> str:
+        """
+        The spec as the text of a file.
+
+        :returns: str, from which ``..._from_string`` makes an equal spec
+        """
+        import yaml     # here, since who only reads JSON or makes specs by hand need not have it
+        text: str = yaml.safe_dump(self.to_dict(), sort_keys=False, default_flow_style=False)
+        return text
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return self.to_dict() == other.to_dict()
+
+    __hash__ = None     # type: ignore[assignment]    # it can be changed
+
+    def __repr__(self) -> str:
+        return '<%s %s>' % (type(self).__name__, quoted(self.name))
+
+
+def shown(value: Any) -> str:
+    """What was found, for an error; short and safe whatever it is."""
+    if isinstance(value, str):
+        return quoted(value) if value else 'empty'
+    if value is None:
+        return 'empty'
+    if isinstance(value, bool):
+        return 'true' if value else 'false'
+    if isinstance(value, int) and int.bit_length(value) < 64:
+        return int.__repr__(value)
+    if isinstance(value, float):
+        return float.__repr__(value)
+    for kind, text in ((dict, 'a mapping'), ((list, tuple), 'a list'), (int, 'a large number')):
+        if isinstance(value, kind):
+            return text
+    return 'an object of type %s' % type(value).__name__

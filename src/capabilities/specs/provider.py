@@ -1,0 +1,257 @@
+"""
+Capability providers: what runs a capability interface, and what it needs for that.
+
+>>> from capabilities.specs.provider import capability_provider_from_file_path
+>>> path = 'test/unit/specs/providers/navigation_nav_stack.yaml'
+>>> navigation = capability_provider_from_file_path(path)
+>>> navigation.implements, navigation.launch_file, navigation.nodelet_manager
+('navigation/Navigation', 'launch/navigation_nav_stack.launch', 'nav_manager')
+>>> print(navigation.dependencies['laser_capability/LaserObservation'])
+laser_capability/LaserObservation:
+    preferred provider: hokuyo_capability/hokuyo_base
+>>> navigation.remappings
+{'scan': 'nav_stack/scan'}
+"""
+from __future__ import annotations
+
+from capabilities.specs._reading import (
+    SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string, value_place)
+from capabilities.specs.common import InvalidSpec, SpecName, shown
+from capabilities.specs.remappings import RemappingSpec
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from os import PathLike
+    from typing import IO, Any, Dict, Mapping, Optional, Union
+
+    from capabilities.specs._reading import Place
+
+__all__ = ['CapabilityProvider', 'DependsOnRelationship', 'InvalidProvider',
+           'capability_provider_from_dict', 'capability_provider_from_file',
+           'capability_provider_from_file_path', 'capability_provider_from_string']
+
+
+class InvalidProvider(InvalidSpec):
+    """A capability provider that is not complete, or has an entry that cannot be used."""
+
+
+class DependsOnRelationship:
+    """
+    A capability that a provider depends on.
+
+    :param str capability_name: the name of its interface
+    :param str preferred_provider: the name of the provider to run it with, or ``None``
+
+    The attributes are ``name`` (and ``capability_name``) and ``provider`` (and
+    ``preferred_provider`` and ``provider_preference``).
+
+    >>> print(DependsOnRelationship('a_package/Laser', 'b_package/hokuyo'))
+    a_package/Laser:
+        preferred provider: b_package/hokuyo
+    """
+
+    def __init__(self, capability_name: str, preferred_provider: Optional[str]) -> None:
+        self.name = capability_name
+        self.provider = preferred_provider
+
+    @property
+    def capability_name(self) -> str:
+        """The same as ``name``."""
+        return self.name
+
+    @property
+    def preferred_provider(self) -> Optional[str]:
+        """The same as ``provider``."""
+        return self.provider
+
+    @property
+    def provider_preference(self) -> Optional[str]:
+        """The same as ``provider``."""
+        return self.provider
+
+    def __str__(self) -> str:
+        return '%s:\n    preferred provider: %s' % (self.name, self.provider)
+
+
+class CapabilityProvider(RemappingSpec):
+    """
+    A capability provider.
+
+    :param str name: its name
+    :param int spec_version: the version of the specification, 1
+    :param str implements: the name of the interface that it provides
+    :param str launch_file: the path of the launch file that runs it, relative to its package;
+        ``None`` if there is nothing to run
+    :param str description: free text; ``None`` gives ``'No description given.'``
+    :param dict remappings: new names by name, by kind (``{'topics': {'scan': 'laser/scan'}}``)
+    :param str nodelet_manager: the name of the nodelet manager that it uses, or ``None``
+    :raises ValueError: if there are remappings of another kind
+    :raises RuntimeError: if a name is remapped to two others
+
+    The attributes of the parameters' names can be set, those of every spec too; but
+    ``remappings`` is a dict of all kinds together, and a copy.
+
+    >>> CapabilityProvider('navigation', 1, 'navigation/Navigation').dependencies
+    {}
+    """
+
+    spec_type = 'provider'
+
+    def __init__(self, name: str, spec_version: int, implements: str,
+                 launch_file: Optional[str] = None, description: Optional[str] = None,
+                 remappings: Optional[Mapping[str, Mapping[str, str]]] = None,
+                 nodelet_manager: Optional[str] = None) -> None:
+        super().__init__(name, spec_version, description, remappings)
+        self.implements = implements
+        self.launch_file = launch_file
+        self.nodelet_manager = nodelet_manager
+        self._dependencies: Dict[SpecName, DependsOnRelationship] = {}
+
+    @property
+    def dependencies(self) -> Dict[SpecName, DependsOnRelationship]:
+        """What it depends on, by the name of the interface: a new dict."""
+        return dict(self._dependencies)
+
+    def depends_on(self, capability_name: str) -> bool:
+        """
+        Does it depend on this capability?
+
+        :param str capability_name: the name of an interface
+        :returns: bool
+        """
+        return capability_name in self._dependencies
+
+    def add_depends_on(self, capability_name: str, preferred_provider: Optional[str] = None
+                       ) -> None:
+        """
+        Add a capability that it depends on.
+
+        :param str capability_name: the name of an interface
+        :param str preferred_provider: the name of the provider to run it with, or ``None``
+        :raises ValueError: if a name is not of the form ``package/name``
+        :raises RuntimeError: if it depends on that capability already
+        """
+        name = SpecName(capability_name)
+        provider = None if preferred_provider is None else SpecName(preferred_provider)
+        if name in self._dependencies:
+            raise RuntimeError('the provider depends on %s already' % shown(name))
+        self._dependencies[name] = DependsOnRelationship(name, provider)
+
+    def to_dict(self) -> Dict[str, Any]:
+        """
+        The spec as plain data, in the order of the file.
+
+        :returns: dict, from which `capability_provider_from_dict` makes an equal spec
+        """
+        data = super().to_dict()
+        data['implements'] = str(self.implements)
+        if self.launch_file is not None:
+            data['launch_file'] = str(self.launch_file)
+        if self._dependencies:
+            data['depends_on'] = {
+                str(name): {} if dependency.provider is None
+                else {'provider': str(dependency.provider)}
+                for name, dependency in self._dependencies.items()}
+        data.update(self._remappings_to_dict())
+        if self.nodelet_manager is not None:
+            data['nodelet_manager'] = str(self.nodelet_manager)
+        return data
+
+
+def capability_provider_from_file_path(file_path: Union[str, PathLike[str]]
+                                        ) -> CapabilityProvider:
+    """
+    Read the capability provider in a file.
+
+    :param str file_path: where the file is
+    :returns: `CapabilityProvider`
+    :raises InvalidProvider: if the spec is not complete or has invalid entries
+    :raises OSError: if the file is not there, or cannot be read
+    """
+    return capability_provider_from_dict(
+        load_spec_file_path(file_path, InvalidProvider), str(file_path))
+
+
+def capability_provider_from_file(file_handle: IO[Any]) -> CapabilityProvider:
+    """
+    Read the capability provider in an open file.
+
+    :param file_handle: open for reading, as text or binary
+    :returns: `CapabilityProvider`
+    :raises InvalidProvider: if the spec is not complete or has invalid entries
+    :raises OSError: if the file cannot be read
+    """
+    file_name = str(getattr(file_handle, 'name', '<file>'))
+    return capability_provider_from_dict(
+        load_spec_file(file_handle, file_name, InvalidProvider), file_name)
+
+
+def capability_provider_from_string(string: str, file_name: str = '<string>'
+                                     ) -> CapabilityProvider:
+    """
+    Read a capability provider.
+
+    :param str string: the text of the spec
+    :param str file_name: the name that errors give
+    :returns: `CapabilityProvider`
+    :raises InvalidProvider: if the spec is not complete or has invalid entries
+    :raises AttributeError: if ``string`` is not a str
+    """
+    return capability_provider_from_dict(
+        load_spec_string(string, file_name, InvalidProvider), file_name)
+
+
+def capability_provider_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>'
+                                   ) -> CapabilityProvider:
+    """
+    Make a capability provider of plain data.
+
+    :param dict spec: what a file would hold
+    :param str file_name: the name that errors give
+    :returns: `CapabilityProvider`
+    :raises InvalidProvider: if the spec is not complete or has invalid entries
+    """
+    source = SpecSource(
+        spec, file_name, 'provider',
+        ('implements', 'launch_file', 'depends_on', 'remappings', 'nodelet_manager'),
+        InvalidProvider)
+    provider = CapabilityProvider(
+        source.name, 1, source.spec_name('implements'), source.optional_text('launch_file'),
+        source.description, nodelet_manager=source.optional_text('nodelet_manager'))
+    _read_dependencies(source, provider)
+    provider._read_remappings(source)
+    return source.finished(provider)
+
+
+def _read_dependencies(source: SpecSource, provider: CapabilityProvider) -> None:
+    """Add what the source says that the provider depends on."""
+    given = source.spec.get('depends_on')
+    if isinstance(given, str):
+        _read_dependency(source, provider, value_place(source.spec, 'depends_on'), given)
+    elif isinstance(given, (list, tuple)):
+        for index, name in enumerate(given):
+            _read_dependency(source, provider, value_place(given, index), name)
+    elif isinstance(given, dict):
+        source.check_repeated(given)
+        for name in given:
+            conditions = source.names_in(given, name, 'a condition of depends_on')
+            for condition in conditions:
+                if condition != 'provider':
+                    raise source.error(*source.unknown('condition', conditions, condition,
+                                                       ('provider',), 'depends_on'))
+            preferred = conditions.get('provider')
+            _read_dependency(source, provider, key_place(given, name), name,
+                             None if preferred is None else source.spec_name_at(
+                                 value_place(conditions, 'provider'), preferred, 'provider'))
+    elif given is not None:
+        raise source.error(value_place(source.spec, 'depends_on'), 'depends_on is %s, expected '
+                           'the name of an interface, a list of names or a mapping', given)
+
+
+def _read_dependency(source: SpecSource, provider: CapabilityProvider, place: Place, given: Any,
+                     preferred_provider: Optional[str] = None) -> None:
+    """Add one capability that the provider depends on."""
+    name = source.spec_name_at(place, given, 'depends_on')
+    if provider.depends_on(name):
+        raise source.error(place, '%s is there twice', name)
+    provider.add_depends_on(name, preferred_provider)

@@ -1,0 +1,98 @@
+"""
+Remappings: the ROS names of an interface, and what they are called instead.
+
+Providers and semantic interfaces have them, by kind:
+
+>>> from capabilities.specs.provider import capability_provider_from_file_path
+>>> path = 'test/unit/specs/providers/navigation_nav_stack.yaml'
+>>> capability_provider_from_file_path(path).remappings_by_type
+{'topics': {'scan': 'nav_stack/scan'}, 'services': {}, 'actions': {}, 'parameters': {}}
+"""
+from __future__ import annotations
+
+from capabilities.specs._reading import SpecSource, key_place
+from capabilities.specs.common import CapabilitySpec, shown
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Dict, Mapping, Optional
+
+__all__ = ['REMAPPING_KINDS', 'RemappingSpec']
+
+REMAPPING_KINDS = ('topics', 'services', 'actions', 'parameters')
+
+
+class RemappingSpec(CapabilitySpec):
+    """
+    A spec with remappings: a provider, or a semantic interface.
+
+    A name has one new name, whatever kinds it is remapped in.
+    """
+
+    def __init__(self, name: str, spec_version: int, description: Optional[str],
+                 remappings: Optional[Mapping[str, Mapping[str, str]]]) -> None:
+        super().__init__(name, spec_version, description)
+        self._remappings: Dict[str, str] = {}
+        self._remappings_by_type: Dict[str, Dict[str, str]] = {
+            'topics': {}, 'services': {}, 'actions': {}, 'parameters': {}}
+        for kind, new_names in (remappings or {}).items():
+            for old_name, new_name in new_names.items():
+                self.add_remapping(kind, old_name, new_name)
+
+    @property
+    def remappings(self) -> Dict[str, str]:
+        """The new name by the name: a new dict, in the order of the file."""
+        return dict(self._remappings)
+
+    @property
+    def remappings_by_type(self) -> Dict[str, Dict[str, str]]:
+        """The remappings of each kind: a new dict that always has the keys ``'topics'``,
+        ``'services'``, ``'actions'`` and ``'parameters'``."""
+        return {kind: dict(new_names) for kind, new_names in self._remappings_by_type.items()}
+
+    def add_remapping(self, kind: str, name: str, new_name: str) -> None:
+        """
+        Add a remapping.
+
+        :param str kind: ``'topics'``, ``'services'``, ``'actions'`` or ``'parameters'``
+        :param str name: a ROS name of the interface
+        :param str new_name: what it is called instead
+        :raises ValueError: if the kind is another
+        :raises RuntimeError: if the name is remapped to something else
+        """
+        if kind not in REMAPPING_KINDS:
+            raise ValueError('%s is not a kind of remapping, expected %s' % (
+                shown(kind), ', '.join(REMAPPING_KINDS)))
+        if self._remappings.setdefault(name, new_name) != new_name:
+            raise RuntimeError('%s is remapped to %s and to %s' % (
+                shown(name), shown(self._remappings[name]), shown(new_name)))
+        self._remappings_by_type[kind][name] = new_name
+
+    def _remappings_to_dict(self) -> Dict[str, Any]:
+        """The remappings as a part of what ``to_dict`` gives; no part if there are none."""
+        remappings = {
+            kind: {str(name): str(new_name) for name, new_name in new_names.items()}
+            for kind, new_names in self._remappings_by_type.items() if new_names}
+        return {'remappings': remappings} if remappings else {}
+
+    def _read_remappings(self, source: SpecSource) -> None:
+        """Add the remappings that the source has."""
+        kinds = source.names_in(source.spec, 'remappings', 'remappings')
+        for kind in kinds:
+            if kind not in REMAPPING_KINDS:
+                raise source.error(*source.unknown('kind', kinds, kind, REMAPPING_KINDS,
+                                                   'remappings'))
+            new_names = source.mapping_in(kinds, kind, 'remappings of ' + kind)
+            for key, value in new_names.items():
+                name = source.name_in(new_names, key, 'the name of a remapping')
+                new_name = source.text_in(new_names, key, value, 'the new name of %s', name)
+                if self._remappings.get(name, new_name) != new_name:
+                    raise source.error(key_place(new_names, key),
+                                       '%s is remapped to %s and to %s',
+                                       name, self._remappings[name], new_name)
+                self.add_remapping(kind, name, new_name)
+            for name, lost, place in getattr(new_names, 'repeated', ()):
+                if lost != new_names[name]:
+                    raise source.error(place, '%s is remapped to %s and to %s',
+                                       name, lost, new_names[name])
+                source.warn(place, '%s is remapped twice, to the same', name)

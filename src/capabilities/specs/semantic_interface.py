@@ -1,0 +1,218 @@
+"""
+Semantic capability interfaces: an interface with a meaning of its own, and new ROS names.
+
+>>> from capabilities.specs.semantic_interface import semantic_capability_interface_from_file_path
+>>> path = 'test/specs/semantic_interfaces/FrontRGBCamera.yaml'
+>>> front_camera = semantic_capability_interface_from_file_path(path)
+>>> front_camera.redefines, front_camera.global_namespace
+('a_package/RGBCamera', 'front_camera')
+>>> front_camera.remappings['camera/image_raw']
+'front_camera/image_raw'
+
+`SemanticCapabilityInterface.resolve` answers what a client of it sees:
+
+>>> from capabilities.specs.interface import capability_interface_from_file_path
+>>> camera = capability_interface_from_file_path('test/unit/specs/interfaces/RGBCamera.yaml')
+>>> list(front_camera.resolve(camera).topics)
+['front_camera/image_raw', 'front_camera/camera_info']
+"""
+from __future__ import annotations
+
+from capabilities.specs._reading import (
+    SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string)
+from capabilities.specs.common import InvalidSpec, shown
+from capabilities.specs.interface import CapabilityInterface, InterfaceElement
+from capabilities.specs.remappings import RemappingSpec
+from rocon_uri.yaml_source import near_misses, quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from os import PathLike
+    from typing import IO, Any, Dict, Mapping, Optional, Union
+
+__all__ = ['InvalidSemanticInterface', 'SemanticCapabilityInterface',
+           'semantic_capability_interface_from_dict', 'semantic_capability_interface_from_file',
+           'semantic_capability_interface_from_file_path',
+           'semantic_capability_interface_from_string']
+
+
+class InvalidSemanticInterface(InvalidSpec):
+    """A semantic capability interface that is not complete, or has an entry that cannot be used,
+    or does not fit the interface that it redefines."""
+
+
+class SemanticCapabilityInterface(RemappingSpec):
+    """
+    A semantic capability interface.
+
+    :param str name: its name
+    :param str redefines: the name of the interface that it gives a meaning to
+    :param int spec_version: the version of the specification, 1
+    :param str description: free text; ``None`` gives ``'No description given.'``
+    :param str global_namespace: the namespace that all ROS names are put in, or ``None``
+    :param dict remappings: new names by name, by kind (``{'topics': {'scan': 'left_scan'}}``)
+    :raises ValueError: if there are remappings of another kind
+    :raises RuntimeError: if a name is remapped to two others
+
+    The attributes of the parameters' names can be set, those of every spec too; but
+    ``remappings`` is a dict of all kinds together, and a copy. ``default_provider`` (str) is that
+    of `capabilities.specs.interface.CapabilityInterface`.
+
+    >>> SemanticCapabilityInterface('Left', 'a_package/RGBCamera', 1).remappings
+    {}
+    """
+
+    spec_type = 'semantic_interface'
+
+    def __init__(self, name: str, redefines: str, spec_version: int,
+                 description: Optional[str] = None, global_namespace: Optional[str] = None,
+                 remappings: Optional[Mapping[str, Mapping[str, str]]] = None) -> None:
+        super().__init__(name, spec_version, description, remappings)
+        self.redefines = redefines
+        self.global_namespace = global_namespace
+        self.default_provider = 'unknown'
+
+    def resolve(self, interface: CapabilityInterface) -> CapabilityInterface:
+        """
+        The interface that a client of this semantic interface sees.
+
+        Every ROS name goes into the global namespace (``camera/image`` to ``left/camera/image``,
+        ``/cmd_vel`` to ``/left/cmd_vel``) but for those that are remapped, and private names.
+        Dynamic parameters stay as they are.
+
+        :param CapabilityInterface interface: the one that this one redefines
+        :returns: `capabilities.specs.interface.CapabilityInterface` of this one's name
+        :raises InvalidSemanticInterface: if a name is remapped that the interface does not have,
+            or two names come out the same
+
+        >>> camera = CapabilityInterface('RGBCamera', 1)
+        >>> camera.add_topic('/image', InterfaceElement('/image', 'topic', 'sensor_msgs/Image'))
+        >>> left = SemanticCapabilityInterface('Left', 'a_package/RGBCamera', 1, None, 'left')
+        >>> list(left.resolve(camera).topics)
+        ['/left/image']
+        """
+        resolved = CapabilityInterface(self.name, self.spec_version, self.description)
+        resolved.default_provider = self.default_provider
+        self._check_remapped_names(interface)
+        old_names: Dict[Any, str] = {}
+        for section, name, element, grouping in interface.elements():
+            new_name = self._remappings_by_type[section].get(name) or self._in_namespace(name)
+            old_name = old_names.setdefault((section, new_name), name)
+            if old_name != name:
+                raise self._error(section, name, '%s and %s of %s both come out as %s' % (
+                    quoted(old_name), quoted(name), section, quoted(new_name)))
+            new_element = InterfaceElement(
+                new_name, element.kind, element.type, element.description)
+            try:
+                resolved._add(section, new_name, new_element, grouping)
+            except ValueError as error:
+                raise self._error(section, name, str(error)) from None
+        for dynamic_parameter in interface.dynamic_parameters:
+            resolved.add_dynamic_parameter(dynamic_parameter)
+        return resolved
+
+    def to_dict(self) -> Dict[str, Any]:
+        """
+        The spec as plain data, in the order of the file.
+
+        :returns: dict, from which `semantic_capability_interface_from_dict` makes an equal spec
+        """
+        data = super().to_dict()
+        data['redefines'] = str(self.redefines)
+        if self.global_namespace is not None:
+            data['global_namespace'] = str(self.global_namespace)
+        data.update(self._remappings_to_dict())
+        return data
+
+    def _in_namespace(self, name: str) -> str:
+        """The name, in the global namespace."""
+        if self.global_namespace is None or name.startswith('~'):
+            return name
+        namespace = self.global_namespace.rstrip('/')
+        if name.startswith('/'):
+            return namespace + name if namespace.startswith('/') or not namespace \
+                else '/' + namespace + name
+        return namespace + '/' + name
+
+    def _check_remapped_names(self, interface: CapabilityInterface) -> None:
+        """Refuse to remap what the interface does not have."""
+        names: Dict[str, Dict[str, InterfaceElement]] = {
+            'topics': interface.topics, 'services': interface.services,
+            'actions': interface.actions, 'parameters': interface.parameters}
+        for section, new_names in self._remappings_by_type.items():
+            for name in new_names:
+                if name not in names[section]:
+                    near = near_misses(name, names[section])
+                    raise self._error(section, name, '%s has no %s in %s to remap%s' % (
+                        shown(interface.name), quoted(name), section,
+                        ' (did you mean %s?)' % ' or '.join(map(quoted, near)) if near else ''))
+
+    def _error(self, section: str, name: str, msg: str) -> InvalidSemanticInterface:
+        """The error of a name; it is where the name is remapped, if it is and was read."""
+        remappings = (self.source or {}).get('remappings')
+        new_names = remappings.get(section) if isinstance(remappings, dict) else None
+        line, column = key_place(new_names, name) if isinstance(new_names, dict) else (None, None)
+        return InvalidSemanticInterface(
+            msg, '<%s>' % self.name if self.file_name is None else self.file_name, line, column)
+
+
+def semantic_capability_interface_from_file_path(file_path: Union[str, PathLike[str]]
+                                        ) -> SemanticCapabilityInterface:
+    """
+    Read the semantic capability interface in a file.
+
+    :param str file_path: where the file is
+    :returns: `SemanticCapabilityInterface`
+    :raises InvalidSemanticInterface: if the spec is not complete or has invalid entries
+    :raises OSError: if the file is not there, or cannot be read
+    """
+    return semantic_capability_interface_from_dict(
+        load_spec_file_path(file_path, InvalidSemanticInterface), str(file_path))
+
+
+def semantic_capability_interface_from_file(file_handle: IO[Any]) -> SemanticCapabilityInterface:
+    """
+    Read the semantic capability interface in an open file.
+
+    :param file_handle: open for reading, as text or binary
+    :returns: `SemanticCapabilityInterface`
+    :raises InvalidSemanticInterface: if the spec is not complete or has invalid entries
+    :raises OSError: if the file cannot be read
+    """
+    file_name = str(getattr(file_handle, 'name', '<file>'))
+    return semantic_capability_interface_from_dict(
+        load_spec_file(file_handle, file_name, InvalidSemanticInterface), file_name)
+
+
+def semantic_capability_interface_from_string(string: str, file_name: str = '<string>'
+                                     ) -> SemanticCapabilityInterface:
+    """
+    Read a semantic capability interface.
+
+    :param str string: the text of the spec
+    :param str file_name: the name that errors give
+    :returns: `SemanticCapabilityInterface`
+    :raises InvalidSemanticInterface: if the spec is not complete or has invalid entries
+    :raises AttributeError: if ``string`` is not a str
+    """
+    return semantic_capability_interface_from_dict(
+        load_spec_string(string, file_name, InvalidSemanticInterface), file_name)
+
+
+def semantic_capability_interface_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>'
+                                   ) -> SemanticCapabilityInterface:
+    """
+    Make a semantic capability interface of plain data.
+
+    :param dict spec: what a file would hold
+    :param str file_name: the name that errors give
+    :returns: `SemanticCapabilityInterface`
+    :raises InvalidSemanticInterface: if the spec is not complete or has invalid entries
+    """
+    source = SpecSource(spec, file_name, 'semantic_interface',
+                        ('redefines', 'global_namespace', 'remappings'), InvalidSemanticInterface)
+    semantic_interface = SemanticCapabilityInterface(
+        source.name, source.spec_name('redefines'), 1, source.description,
+        source.optional_text('global_namespace'))
+    semantic_interface._read_remappings(source)
+    return source.finished(semantic_interface)
