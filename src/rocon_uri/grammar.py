@@ -16,7 +16,7 @@ __all__ = ['ALTERNATIVES_LIMIT', 'EBNF', 'NAME_LIMIT', 'TEXT_LIMIT', 'VOCABULARY
            'decoded', 'ebnf', 'is_literal', 'is_rocon_app', 'raw_span', 'split', 'stray_character']
 
 TEXT_LIMIT = 65536          # characters of a whole URI
-NAME_LIMIT = 255            # characters of a concert name, of a name or pattern, of a half of an app
+NAME_LIMIT = 255            # characters of a concert name, of a name or pattern, of half an app
 ALTERNATIVES_LIMIT = 256    # alternatives of one field
 
 #: The fields whose values are registered, in the order in which a URI has them.
@@ -39,7 +39,8 @@ glob        = { letter | digit | "_" | "*" } ;              (* at least one "*" 
 
 regex       = [ "^" ] , branch , [ "$" ] ;                  (* of the whole name *)
 branch      = { piece } ;
-piece       = atom , [ "*" | "+" | "?" | "{" , m , "}" | "{" , m , ",}" | "{" , m , "," , n , "}" ] ;
+piece       = atom , [ "*" | "+" | "?" | count ] ;
+count       = "{" , m , [ "," , [ n ] ] , "}" ;
 atom        = letter | digit | "_" | "." | class | shorthand | group ;
 group       = ( "(" | "(?:" ) , branch , { "|" , branch } , ")" ;
 class       = "[" , [ "^" ] , item , { item } , "]" ;

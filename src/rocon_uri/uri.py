@@ -262,7 +262,7 @@ class RoconURI:
         return parse, (str(self),)
 
 
-_RFC3986_RAW = frozenset("-._~!$()*+,;=:@/#")
+_RFC3986_RAW = frozenset('-._~!$()*+,;=:@/#')
 
 
 def parse(text: Union[str, RoconURI] = 'rocon:/', vocabulary: Optional[Vocabulary] = None,
