@@ -102,7 +102,7 @@ def take_apart(text: str, vocabulary: Vocabulary,
 
 def _are_platforms(raw: str, vocabulary: Vocabulary) -> bool:
     try:
-        alternatives = grammar.decoded(raw).split('|', grammar.ALTERNATIVES_LIMIT)
+        alternatives = grammar.decoded(raw).split('|')
     except ValueError:
         return False
     platforms = vocabulary.field('hardware_platform')
