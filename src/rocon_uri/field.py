@@ -119,8 +119,11 @@ class ValuesField(Field):
     def __contains__(self, value: object) -> bool:
         if not isinstance(value, str):
             return False
-        vocabulary = completed(self._vocabulary)
+        vocabulary = self._vocabulary
         known = vocabulary.field(self.field_name)
+        if value not in known or known.children(value):     # of others, the groups do not change
+            vocabulary = completed(vocabulary)
+            known = vocabulary.field(self.field_name)
         if value not in known:
             return value in self.others or self.is_any and is_legal_base_name(value)
         return not known.mask(value) & ~self.in_vocabulary(vocabulary).mask

@@ -85,7 +85,8 @@ def take_apart(text: str, vocabulary: Vocabulary,
     if written[0][0] and not strict and not written[4][0] and not more:
         concert, platform = written[0][0], written[1][0]
         if not _are_platforms(platform, vocabulary):
-            vocabulary = completed(vocabulary)      # either may be known to another package
+            if platform not in ('', '*') or not _are_platforms(concert, vocabulary):
+                vocabulary = completed(vocabulary)      # either may be known to another package
             with_one_slash = (_are_platforms(concert, vocabulary)
                               and not _are_platforms(platform, vocabulary))
     if with_one_slash:

@@ -212,6 +212,8 @@ class RoconURI:
 
     def _needs_all_fields(self) -> bool:
         """Would the concert be taken for a platform if not all of the fields were written?"""
+        if not self._concert_name:
+            return False
         platforms = completed(self._vocabulary).field('hardware_platform')
         return self._concert_name in platforms and not all(
             value in platforms for value in self._hardware_platform)
