@@ -13,7 +13,7 @@ from rocon_uri.vocabulary import Vocabulary, completed
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import FrozenSet, Iterator, List, Optional, Tuple
+    from typing import Any, Dict, FrozenSet, Iterator, List, Optional, Tuple
     from rocon_uri.name_pattern import NamePattern
 
 __all__ = ['Field', 'NameField', 'UnregisteredValue', 'ValuesField', 'read_name', 'read_values']
@@ -78,6 +78,18 @@ class Field:
         """
         return self.list
 
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError('a field of a rocon URI cannot be changed')
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError('a field of a rocon URI cannot be changed')
+
+    def __copy__(self) -> 'Field':
+        return self
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> 'Field':
+        return self
+
     def __str__(self) -> str:
         return self._string
 
@@ -96,22 +108,27 @@ class ValuesField(Field):
 
     __slots__ = ('field_name', 'alternatives', 'mask', 'others', '_vocabulary', '_key')
 
+    field_name: str
+    alternatives: Tuple[str, ...]
+    mask: int
+    others: FrozenSet[str]      # the values that only an open vocabulary admits have no bits
+    _vocabulary: Vocabulary
+    _key: FrozenSet[str]
+
     def __init__(self, name: str, alternatives: Tuple[str, ...], vocabulary: Vocabulary) -> None:
         known = vocabulary.field(name)
-        self._string = '|'.join(alternatives)
-        self.field_name = name
-        self.alternatives = alternatives
-        self.mask = 0
+        mask = 0
         for value in alternatives:
             if value == '*':
-                self.mask = _ANY_MASK
+                mask = _ANY_MASK
             elif value in known:
-                self.mask |= known.mask(value)
-        # the values that only an open vocabulary admits have no bits
-        self.others: FrozenSet[str] = frozenset(
-            value for value in alternatives if value != '*' and value not in known)
-        self._vocabulary = vocabulary
-        self._key = frozenset(alternatives)
+                mask |= known.mask(value)
+        others = frozenset(value for value in alternatives if value != '*' and value not in known)
+        for attribute, content in (
+                ('_string', '|'.join(alternatives)), ('field_name', name),
+                ('alternatives', alternatives), ('mask', mask), ('others', others),
+                ('_vocabulary', vocabulary), ('_key', frozenset(alternatives))):
+            object.__setattr__(self, attribute, content)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.alternatives)
@@ -169,6 +186,11 @@ class ValuesField(Field):
     def __hash__(self) -> int:
         return hash(self._key)
 
+    def __reduce__(self) -> Tuple[Any, ...]:
+        from rocon_uri.uri import RoconURI      # here, since it stands on this module
+        fields: Dict[str, Any] = {self.field_name: self, 'vocabulary': self._vocabulary}
+        return getattr, (RoconURI.from_fields(**fields), self.field_name)
+
 
 class NameField(Field):
     """
@@ -180,9 +202,11 @@ class NameField(Field):
 
     __slots__ = ('pattern',)
 
+    pattern: NamePattern
+
     def __init__(self, string: str, pattern: NamePattern) -> None:
-        self._string = string
-        self.pattern = pattern
+        object.__setattr__(self, '_string', string)
+        object.__setattr__(self, 'pattern', pattern)
 
     def __contains__(self, value: object) -> bool:
         return isinstance(value, str) and self.pattern.matches(value)
@@ -208,6 +232,9 @@ class NameField(Field):
 
     def __hash__(self) -> int:
         return hash(self._string)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return read_name, (self._string,)
 
 
 def read_values(name: str, text: str, vocabulary: Vocabulary) -> ValuesField:
