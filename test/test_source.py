@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-SOURCES = ['src', 'scripts', 'test', 'setup.py']
+SOURCES = ['src', 'scripts', 'test', 'benchmark', 'setup.py']
 
 
 def check(program: str, *arguments: str) -> None:
