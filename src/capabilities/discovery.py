@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import logging
 import os
+from xml.parsers.expat import ErrorString, ExpatError
 
 from catkin_pkg.package import PACKAGE_MANIFEST_FILENAME, InvalidPackage, parse_package_string
 
@@ -158,10 +159,11 @@ def _package(file_name: str) -> Package:
     except OSError as error:
         raise PackageError(error.strerror or str(error), file_name) from error
     except InvalidPackage as error:
-        syntax = error.__context__      # where expat gave up, if it did
-        line, offset = getattr(syntax, 'lineno', None), getattr(syntax, 'offset', None)
-        column = None if offset is None else offset + 1
-        raise PackageError(' '.join(error.msg.split()), file_name, line, column) from error
+        syntax = error.__context__
+        if isinstance(syntax, ExpatError):
+            raise PackageError('not XML: ' + ErrorString(syntax.code), file_name, syntax.lineno,
+                               syntax.offset + 1) from error
+        raise PackageError(' '.join(error.msg.split()), file_name) from error
     except Exception as error:  # parse_package_string has asserts, int() and recursion in it
         raise PackageError('not a valid manifest: %s' % error, file_name) from error
 

@@ -24,15 +24,14 @@ from capabilities.start_order import components, cycle_in
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple
+    from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
     from capabilities.spec_index import SpecIndex
 
     Defaults = Optional[Mapping[str, str]]
-    Choice = Tuple[Optional[str], Optional[Fault]]
 
-__all__ = ['Fault', 'FaultKind', 'StartPlan', 'choose_provider', 'plan_for_capabilities',
-           'plan_for_provider']
+__all__ = ['Fault', 'FaultKind', 'StartPlan', 'choose_provider', 'find_cycles',
+           'plan_for_capabilities', 'plan_for_provider']
 
 
 class StartPlan(namedtuple('StartPlan', 'order providers dependencies faults')):
@@ -60,7 +59,7 @@ class StartPlan(namedtuple('StartPlan', 'order providers dependencies faults')):
 
 
 def choose_provider(spec_index: SpecIndex, capability: str, preferred: Optional[str] = None,
-                    defaults: Defaults = None) -> Choice:
+                    defaults: Defaults = None) -> Union[str, Fault]:
     """
     The provider that runs a capability.
 
@@ -68,11 +67,10 @@ def choose_provider(spec_index: SpecIndex, capability: str, preferred: Optional[
     :param str capability: the name of an interface or semantic interface
     :param preferred: str, the name of the provider that is preferred, or None
     :param defaults: mapping from capabilities to their default providers, both str, or None
-    :returns: (str, None), the name of the provider, or (None, `Fault`)
+    :returns: str, the name of the provider, or a `Fault`
 
     >>> from capabilities.spec_index import SpecIndex
-    >>> provider, fault = choose_provider(SpecIndex(), 'navigation/Navigation')
-    >>> print(fault)
+    >>> print(choose_provider(SpecIndex(), 'navigation/Navigation'))
     capability 'navigation/Navigation': no package exports this capability
     """
     return _Planner(spec_index, defaults).choose(capability, preferred, capability)
@@ -120,6 +118,24 @@ def plan_for_provider(spec_index: SpecIndex, provider_name: str,
     return planner.plan()
 
 
+def find_cycles(spec_index: SpecIndex, defaults: Defaults = None) -> List[Fault]:
+    """
+    Cycles among all the providers there are.
+
+    :param SpecIndex spec_index: what there is
+    :param defaults: mapping from capabilities to their default providers, both str, or None
+    :returns: list of `Fault`, one for each set of providers that all depend on each other
+
+    >>> from capabilities.spec_index import SpecIndex
+    >>> find_cycles(SpecIndex())
+    []
+    """
+    planner = _Planner(spec_index, defaults)
+    for name, provider in planner.specs.items():
+        planner.add(provider.implements, name)
+    return [fault for fault in planner.plan().faults if fault.kind is FaultKind.CYCLE]
+
+
 class _Planner:
     """The providers chosen so far, and what they depend on."""
 
@@ -134,10 +150,10 @@ class _Planner:
         self.faults: List[Fault] = []
 
     def choose(self, capability: str, preferred: Optional[str], asked_for: str,
-               required_by: Optional[str] = None) -> Choice:
+               required_by: Optional[str] = None) -> Union[str, Fault]:
         """The provider for a capability, or the fault that there is none."""
-        def fault(kind: FaultKind, **attributes: Any) -> Choice:
-            return None, Fault(kind, capability, asked_for, required_by, **attributes)
+        def fault(kind: FaultKind, **attributes: Any) -> Fault:
+            return Fault(kind, capability, asked_for, required_by, **attributes)
 
         if capability not in self.capabilities:
             return fault(FaultKind.NO_INTERFACE, known=self.capabilities)
@@ -152,21 +168,21 @@ class _Planner:
             implements = self.specs[named].implements
             if implements != capability:
                 return fault(FaultKind.WRONG_PROVIDER, implements=implements, **named_one)
-            return named, None
+            return str(named)
         if not candidates:
             return fault(FaultKind.NO_PROVIDER)
         if len(candidates) > 1:
             return fault(FaultKind.AMBIGUOUS, candidates=candidates)
-        return candidates[0], None
+        return candidates[0]
 
     def add(self, asked_for: str, preferred: Optional[str] = None) -> None:
         """Choose a provider for a capability, and for all that it depends on."""
         waiting: List[Tuple[str, Optional[str], Optional[str]]] = [(asked_for, preferred, None)]
         while waiting:
             capability, preferred, required_by = waiting.pop()
-            provider, fault = self.choose(capability, preferred, asked_for, required_by)
-            if provider is None:
-                self.faults.append(fault)
+            provider = self.choose(capability, preferred, asked_for, required_by)
+            if isinstance(provider, Fault):
+                self.faults.append(provider)
                 continue
             if required_by is not None:
                 self.dependencies[required_by].append(provider)

@@ -13,7 +13,7 @@ from rocon_uri.yaml_source import YamlMapping, located, near_misses, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Dict, Iterable, List, Optional, Tuple, TypeVar, Union
+    from typing import Callable, Dict, Iterable, List, Optional, Tuple, TypeVar, Union
 
     from capabilities.specs.interface import CapabilityInterface
     from capabilities.specs.provider import CapabilityProvider
@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     S = TypeVar('S')
     Entries = Dict[str, Tuple[S, str]]      # what is there and its path, by name
 
-__all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'SpecIndex']
+__all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'SpecIndex',
+           'did_you_mean']
 
 
 class _RefusedSpec(Exception):
@@ -67,7 +68,7 @@ class InterfaceNameNotFoundException(_RefusedSpec):
 
     def __init__(self, msg: str, spec_name: str, package: str, spec_type: str, file_name: str,
                  line: Optional[int] = None, column: Optional[int] = None, interface: str = '',
-                 candidates: Iterable[str] = ()) -> None:
+                 candidates: Callable[[], Iterable[str]] = tuple) -> None:
         super().__init__(msg, spec_name, package, spec_type, file_name, line, column)
         self.interface = interface
         self._candidates = candidates
@@ -75,7 +76,7 @@ class InterfaceNameNotFoundException(_RefusedSpec):
     @property
     def suggestions(self) -> List[str]:
         """The interfaces that were probably meant: a list of at most three str."""
-        return near_misses(self.interface, self._candidates)
+        return near_misses(self.interface, self._candidates())
 
     def _problem(self) -> str:
         return self.msg + did_you_mean(self.suggestions)
@@ -220,7 +221,8 @@ class SpecIndex:
                 'semantic interface %s redefines %s, which is no interface that any package exports'
                 % (quoted(name), quoted(redefined)),
                 name, package_name, semantic_interface.spec_type, str(file_path),
-                *_position(semantic_interface, 'redefines'), redefined, [self._interfaces])
+                *_position(semantic_interface, 'redefines'), redefined,
+                lambda: self.interface_names)
         semantic_interface.name = name
         self._semantic_interfaces[name] = semantic_interface, str(file_path)
 
@@ -244,7 +246,7 @@ class SpecIndex:
                 % (quoted(name), quoted(implemented)),
                 name, package_name, provider.spec_type, str(file_path),
                 *_position(provider, 'implements'), implemented,
-                [self._interfaces, self._semantic_interfaces])
+                lambda: self.interface_names + self.semantic_interface_names)
         provider.name = name
         self._providers[name] = provider, str(file_path)
         self._implemented[name] = implemented
