@@ -28,6 +28,7 @@ default_uri_string = 'rocon://'
 
 _MEMO_SIZE = 4096           # URIs remembered for each vocabulary
 _MEMO_TEXT_LENGTH = 1024    # characters; longer ones are read anew each time
+_LEFT_OUT = ('',) * 5       # what the parts between slashes are where there are fewer
 
 
 class RoconURI:
@@ -285,15 +286,17 @@ def parse(text: Union[str, RoconURI] = 'rocon:/', vocabulary: Optional[Vocabular
     'pr2'
     """
     known = current() if vocabulary is None else vocabulary
-    if isinstance(text, RoconURI):
+    if not isinstance(text, str):
+        if not isinstance(text, RoconURI):
+            raise TypeError('a rocon URI is a str, not %s' % type(text).__name__)
         if vocabulary is None or text._vocabulary is vocabulary:
             return text
         text = str(text)
-    elif not isinstance(text, str):
-        raise TypeError('a rocon URI is a str, not %s' % type(text).__name__)
     uri: Optional[RoconURI] = None if strict else known.uris_read.get(text)
     if uri is None:
-        uri = _with_more_if_needed(partial(_read, text, strict=strict), known)
+        uri = None if strict else _read_common(text, known)
+        if uri is None:
+            uri = _with_more_if_needed(partial(_read, text, strict=strict), known)
         if not strict and len(text) <= _MEMO_TEXT_LENGTH:
             memo = uri._vocabulary.uris_read
             if len(memo) >= _MEMO_SIZE:
@@ -326,24 +329,30 @@ def aligned(a: Union[str, RoconURI], b: Union[str, RoconURI],
     return parse(first, newer), parse(second, newer)
 
 
+def _read_common(text: str, vocabulary: Vocabulary) -> Optional[RoconURI]:
+    """
+    The common form, a robot with values that were read before; None for any other.
+
+    It takes a tenth of the time of `_read`, so that a new robot is read in less than it takes
+    urllib to split its URI.
+    """
+    parts = text.split('/', 5)
+    parts += _LEFT_OUT[len(parts):]
+    platforms, frameworks, systems = vocabulary.fields_read.values()
+    try:
+        scheme, platform, name, framework, system = parts
+        values = platforms[platform], frameworks[framework], systems[system]
+    except (KeyError, ValueError):
+        return None
+    if scheme != 'rocon:' or not platform or not is_literal(name):
+        return None
+    return _new('', values, name, None, '', vocabulary)
+
+
 def _read(text: str, vocabulary: Vocabulary, strict: bool = False) -> RoconURI:
     if len(text) > grammar.TEXT_LIMIT:
         raise RoconURIValueError('a rocon URI has at most %d characters, not %d'
                                  % (grammar.TEXT_LIMIT, len(text)), text, value=text)
-    match = grammar.split(text)
-    if match is not None and not strict:
-        # The common form, of values that were read before: this makes `parse` several times as
-        # fast as taking every text apart.
-        concert, slash, platform, name, framework, system, more, app = match.groups('')
-        platforms, frameworks, systems = vocabulary.fields_read.values()
-        try:
-            values = platforms[platform], frameworks[framework], systems[system]
-        except KeyError:
-            pass
-        else:
-            if (slash and not concert and not more and is_literal(name)
-                    and (not app or grammar.is_rocon_app(app))):
-                return _new('', values, name, None, app, vocabulary)
     parts, vocabulary, with_one_slash = take_apart(text, vocabulary, strict)
     return _assemble(lambda field, read: parts[field].read(read), vocabulary, with_one_slash)
 
