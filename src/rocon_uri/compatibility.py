@@ -10,6 +10,7 @@ from collections import namedtuple
 from enum import Enum
 
 from rocon_uri.field import UnregisteredValue
+from rocon_uri.name_pattern import ANY
 from rocon_uri.uri import RoconURI, aligned, parse
 from rocon_uri.vocabulary import Vocabulary
 
@@ -61,15 +62,22 @@ def is_compatible(a: Resource, b: Resource) -> bool:
         return a._vocabulary.is_open and not a.isdisjoint(b)
     if a._concert_name and b._concert_name and a._concert_name != b._concert_name:
         return False
+    if a._pattern is None and b._pattern is None:
+        return a._name == b._name
+    if a._pattern is ANY or b._pattern is ANY:      # most requests leave the name open
+        return True
     if a._pattern is None:
-        return a._name == b._name if b._pattern is None else b._pattern.matches(a._name)
+        return b._pattern.matches(a._name)
     return a._pattern.matches(b._name) if b._pattern is None else a._pattern.intersects(b._pattern)
 
 
 def _comparable(a: Resource, b: Resource) -> Tuple[RoconURI, RoconURI]:
     """Both as one vocabulary reads them: an open one if one is unregistered and one is any."""
     try:
-        return aligned(a, b)
+        first, second = parse(a), parse(b)
+        if first._vocabulary is second._vocabulary:
+            return first, second
+        return aligned(first, second)
     except UnregisteredValue:
         any_value = Vocabulary.open()
         first, second = parse(a, any_value), parse(b, any_value)
