@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Dict, List, Sequence, Tuple
 
 import pytest
-from catkin_pkg.package import Package
+from catkin_pkg.package import Export, Package
 from catkin_pkg.packages import find_packages
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -206,9 +206,9 @@ class TestPackageIndex:
         assert package_index_from_package_path([str(tmp_path)]) == {}
 
     def test_nothing_is_printed(self, tmp_path: Path, capfd: Any) -> None:
-        add_package(tmp_path / 'a', 'Odd-Name')     # catkin_pkg warns about it on stdout
+        add_package(tmp_path / 'a', 'Odd-Name')     # of which catkin_pkg warns
         assert list(package_index_from_package_path([str(tmp_path)])) == ['Odd-Name']
-        assert capfd.readouterr().out == ''
+        assert capfd.readouterr() == ('', '')
 
 
 class TestSpecFileIndex:
@@ -222,6 +222,14 @@ class TestSpecFileIndex:
             INTERFACE: [str(folder / 'interfaces/B.yaml'), str(folder / 'interfaces/A.yaml')],
             SEMANTIC: [],
             PROVIDER: [str(folder / 'providers/z.yaml')]}}
+
+    def test_packages_made_by_hand(self) -> None:
+        package = Package('src/a_package/package.xml')
+        package.exports = [Export(INTERFACE, '\v A.yaml '), Export(INTERFACE)]
+        folder = os.path.abspath(os.path.join('src', 'a_package'))
+        assert spec_file_index_from_package_index({'a_package': package}) == {'a_package': {
+            INTERFACE: [os.path.join(folder, 'A.yaml'), os.path.join(folder, '')],
+            SEMANTIC: [], PROVIDER: []}}
 
     def test_packages_without_specs_are_left_out(self) -> None:
         packages = package_index_from_package_path([WORKSPACE])
@@ -386,10 +394,10 @@ class TestSpecIndex:
     @pytest.fixture
     def index(self) -> SpecIndex:
         index = SpecIndex()
-        index.add_interface(CapabilityInterface('Camera', 1), 'Camera.yaml', 'a')
+        index.add_interface(CapabilityInterface('Camera', 1), Path('Camera.yaml'), 'a')
         index.add_semantic_interface(
-            SemanticCapabilityInterface('Front', 'a/Camera', 1), 'Front.yaml', 'b')
-        index.add_provider(CapabilityProvider('one', 1, 'a/Camera'), 'one.yaml', 'c')
+            SemanticCapabilityInterface('Front', 'a/Camera', 1), Path('Front.yaml'), 'b')
+        index.add_provider(CapabilityProvider('one', 1, 'a/Camera'), Path('one.yaml'), 'c')
         index.add_provider(CapabilityProvider('two', 1, 'b/Front'), 'two.yaml', 'c')
         index.add_provider(CapabilityProvider('three', 1, 'a/Camera'), 'three.yaml', 'c')
         return index
@@ -406,12 +414,10 @@ class TestSpecIndex:
             name: name for name in index.names}
 
     def test_paths_are_plain_strings(self, index: SpecIndex) -> None:
-        index.add_interface(CapabilityInterface('Laser', 1), Path('Laser.yaml'), 'a')
-        assert index.interface_paths == {'a/Camera': 'Camera.yaml', 'a/Laser': 'Laser.yaml'}
+        assert index.interface_paths == {'a/Camera': 'Camera.yaml'}
         assert index.semantic_interface_paths == {'b/Front': 'Front.yaml'}
         assert index.provider_paths == {
             'c/one': 'one.yaml', 'c/two': 'two.yaml', 'c/three': 'three.yaml'}
-        assert type(index.interface_paths['a/Laser']) is str
 
     def test_the_specs_themselves_are_handed_out(self, index: SpecIndex) -> None:
         index.interfaces['a/Camera'].default_provider = 'c/one'
@@ -453,6 +459,17 @@ class TestSpecIndex:
         index.add_provider(provider, 'one.yaml', 'c')
         assert provider.name == 'c/one'
         assert index.providers_of('a/Camera') == ['c/three', 'c/one']
+
+    @pytest.mark.parametrize('name, kind', [
+        ('Camera', 'an interface'), ('Front', 'a semantic interface'), ('one', 'a provider')])
+    def test_a_name_is_taken_by_one_of_any_kind(self, index: SpecIndex, name: str,
+                                                kind: str) -> None:
+        package = {'Camera': 'a', 'Front': 'b', 'one': 'c'}[name]
+        with pytest.raises(DuplicateNameException) as raised:
+            index.add_interface(CapabilityInterface(name, 1), 'again.yaml', package)
+        assert str(raised.value) == (
+            "again.yaml: '%s/%s' is the name of %s already, in '%s.yaml'"
+            % (package, name, kind, name))
 
     @pytest.mark.parametrize('add, spec, error', [
         ('add_interface', CapabilityInterface('Camera', 1), DuplicateNameException),

@@ -151,11 +151,9 @@ def _package(file_name: str) -> Package:
     try:
         content = read_file(file_name)
         if len(content) > MAX_SIZE:
-            raise PackageError('larger than 1 MiB, which is all that is read', file_name)
+            raise InvalidPackage('larger than 1 MiB, which is all that is read')
         # Its warnings are for those who build the package.
         return parse_package_string(content.decode('utf-8'), file_name, warnings=[])
-    except PackageError:
-        raise
     except OSError as error:
         raise PackageError(error.strerror or str(error), file_name) from error
     except InvalidPackage as error:

@@ -100,8 +100,8 @@ class SpecIndex:
     """
     Capability interfaces, semantic interfaces and providers by ``package/name``.
 
-    All are in the order in which they were added, and no two of any kind have the same name. A new
-    index is empty.
+    All are in the order in which they were added, and no two have the same name, of whichever kind
+    they are. A new index is empty.
 
     >>> SpecIndex().names
     []
@@ -112,7 +112,7 @@ class SpecIndex:
         self._semantic_interfaces: Entries[SemanticCapabilityInterface] = {}
         self._providers: Entries[CapabilityProvider] = {}
         self._providers_of: Dict[str, Dict[str, None]] = {}    # sets that keep their order
-        self._implemented: Dict[str, str] = {}
+        self._implemented: Dict[str, str] = {}     # by provider, as it was when that was added
 
     @property
     def names(self) -> List[str]:
@@ -284,13 +284,13 @@ class SpecIndex:
         """The name to add a spec by; one that was taken out of an index has it already."""
         own = spec.name.startswith(package_name + '/')
         name = spec.name if own else package_name + '/' + spec.name
-        for kind, paths in (('an interface', self._interfaces),
-                            ('a semantic interface', self._semantic_interfaces),
-                            ('a provider', self._providers)):
-            if name in paths:
+        for kind, entries in (('an interface', self._interfaces),
+                              ('a semantic interface', self._semantic_interfaces),
+                              ('a provider', self._providers)):
+            if name in entries:
                 raise DuplicateNameException(
                     '%s is the name of %s already, in %s' % (
-                        quoted(name), kind, quoted(paths[name][1])),
+                        quoted(name), kind, quoted(entries[name][1])),
                     name, package_name, spec.spec_type, str(file_path), *_position(spec, 'name'))
         return name
 
