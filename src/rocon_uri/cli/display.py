@@ -1,0 +1,32 @@
+"""How answers look: in colour on a terminal, as JSON for programs."""
+from __future__ import annotations
+
+import os
+import sys
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Callable
+
+__all__ = ['painter', 'print_json']
+
+_CODES = {'bold': '1', 'faint': '2', 'red': '31', 'green': '32', 'cyan': '36'}
+
+
+def painter() -> Callable[[str, str], str]:
+    """
+    What puts text in colour where standard output is a terminal, and leaves it alone elsewhere.
+
+    :returns: callable that takes the text and ``'bold'``, ``'faint'``, ``'red'``, ``'green'`` or
+        ``'cyan'``, and returns the text to print; https://no-color.org is respected
+    """
+    if (sys.stdout.isatty() and not os.environ.get('NO_COLOR')
+            and os.environ.get('TERM') != 'dumb'):
+        return lambda text, style: '\x1b[%sm%s\x1b[0m' % (_CODES[style], text)
+    return lambda text, style: text
+
+
+def print_json(answer: Any) -> None:
+    """Print an object, for people to read as well."""
+    import json     # here, since most calls do not need it
+    print(json.dumps(answer, indent=2))

@@ -1,0 +1,166 @@
+"""The URIs that a verb is given, as arguments and in files, and a report of the bad ones."""
+from __future__ import annotations
+
+import sys
+
+from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.grammar import TEXT_LIMIT
+from rocon_uri.uri import parse
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Dict, Iterator, List, Optional, TextIO, Tuple
+    from rocon_uri.uri import RoconURI
+
+__all__ = ['GivenURI', 'Report', 'say']
+
+
+def say(text: str) -> None:
+    """Tell the user something on stderr, below what was printed so far."""
+    sys.stdout.flush()
+    print(text, file=sys.stderr)
+
+
+class GivenURI:
+    """
+    A URI and the text that it was read from.
+
+    :param RoconURI uri: what it says
+    :param str text: as it was given
+    :param file: str, the name of the file that it stands in; None for an argument
+    :param line: int, the line there, from 1; None for an argument
+    """
+
+    __slots__ = ('uri', 'text', 'file', 'line')
+
+    def __init__(self, uri: RoconURI, text: str, file: Optional[str] = None,
+                 line: Optional[int] = None) -> None:
+        self.uri = uri
+        self.text = text
+        self.file = file
+        self.line = line
+
+    @property
+    def label(self) -> str:
+        """What to call it among others: the app that asks, or else the text."""
+        return self.uri.rocon_app or self.text
+
+    def mention_one_slash(self) -> None:
+        """Say it if ``//`` was read as ``/``, since that can hide a typing error."""
+        if self.uri.read_with_one_slash:
+            say('rocon_uri: note: %s is read as %s, since %s is a hardware_platform and no concert'
+                % (quoted(self.text), quoted(self.uri.short), self.uri.hardware_platform))
+
+    def as_json(self) -> Dict[str, Any]:
+        """URI, as ``rocon_uri --help`` describes it."""
+        uri = self.uri
+        return {
+            'text': self.text, 'file': self.file, 'line': self.line,
+            'uri': str(uri), 'short': uri.short,
+            'fields': {
+                'concert_name': uri.concert_name,
+                'hardware_platform': uri.hardware_platform.list,
+                'name': uri.name.string,
+                'application_framework': uri.application_framework.list,
+                'operating_system': uri.operating_system.list,
+                'rocon_app': uri.rocon_app,
+            },
+            'read_with_one_slash': uri.read_with_one_slash,
+        }
+
+
+class Report:
+    """
+    What was bad: said on stderr as it is met, and kept where JSON is asked for.
+
+    :param bool json: keep it
+
+    ``errors`` is a list of ERROR, as ``rocon_uri --help`` describes it, and ``status`` the exit
+    status that all comes to: 2, or 0 while nothing was bad.
+    """
+
+    def __init__(self, json: bool) -> None:
+        self.status = 0
+        self.errors: List[Dict[str, Any]] = []
+        self._json = json
+
+    def read(self, text: str, file: Optional[str] = None,
+             line: Optional[int] = None) -> Optional[GivenURI]:
+        """
+        Read a URI.
+
+        :param str text: as it was given
+        :param file: as `GivenURI` takes
+        :param line: as `GivenURI` takes
+        :returns: GivenURI, or None for a text that is not legal, which is reported
+        """
+        try:
+            return GivenURI(parse(text), text, file, line)
+        except RoconURIValueError as error:
+            self.bad_uri(error, file, line)
+            return None
+
+    def read_file(self, path: str) -> Iterator[GivenURI]:
+        """
+        Read a file of URIs, one a line, no faster than they are asked for.
+
+        Blank lines and those whose first character is ``#`` are skipped; so are those that are
+        not legal, but reported.
+
+        :param str path: the file, ``-`` for standard input
+        :returns: iterator of GivenURI
+        """
+        name = '<stdin>' if path == '-' else path
+        try:
+            with open(0 if path == '-' else path, encoding='utf-8-sig', errors='surrogateescape',
+                      closefd=path != '-') as file:
+                for number, line in _lines(file):
+                    text = line.strip()
+                    if text and line[0] != '#':
+                        given = self.read(text, name, number)
+                        if given:
+                            yield given
+        except OSError as error:
+            self._unreadable(name, error)
+
+    def bad_uri(self, error: RoconURIValueError, file: Optional[str] = None,
+                line: Optional[int] = None) -> None:
+        """
+        Report a fault in a URI.
+
+        :param RoconURIValueError error: what is wrong
+        :param file: as `GivenURI` takes
+        :param line: as `GivenURI` takes
+        """
+        self.status = 2
+        if file is None:
+            say('rocon_uri: ' + error.pretty())
+        else:
+            say('%s:%s: %s' % (file, line, error))
+        if self._json:
+            self.errors.append({
+                'message': str(error), 'uri': error.uri, 'field': error.field,
+                'value': error.value, 'span': error.span, 'suggestions': error.suggestions,
+                'file': file, 'line': line})
+
+    def _unreadable(self, file: str, error: OSError) -> None:
+        self.status = 2
+        message = 'cannot read %s: %s' % (quoted(file), error.strerror or error)
+        say('rocon_uri: ' + message)
+        if self._json:
+            self.errors.append({
+                'message': message, 'uri': None, 'field': None, 'value': None, 'span': None,
+                'suggestions': [], 'file': file, 'line': None})
+
+
+def _lines(file: TextIO) -> Iterator[Tuple[int, str]]:
+    """Each line with its number; of one that is longer than any URI, only the start."""
+    number = 0
+    while True:
+        line = file.readline(TEXT_LIMIT + 2)
+        if not line:
+            return
+        number += 1
+        yield number, line
+        while line and not line.endswith('\n'):
+            line = file.readline(TEXT_LIMIT + 2)

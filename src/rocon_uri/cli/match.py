@@ -1,0 +1,146 @@
+"""
+Find the resources that requests are compatible with.
+
+Examples:
+  rocon_uri match 'rocon:/robot/*/ros' --in fleet.txt
+  rocon_uri match --matrix --requests-in apps.txt --in fleet.txt
+
+A FILE has one URI a line; blank lines and lines whose first character is # are
+skipped, and so are bad ones, which are reported with their number. Standard input
+is -. Prints the resources as they stand in FILE, one a line, after the request
+where there are several: its app, or else its text. With --matrix prints every
+resource, and before it a column for each request: x for compatible, . for not, ?
+for name patterns that are too complex to compare.
+
+Exit status: 0 if anything was found, 1 if nothing was, 2 if a request, a line or a
+file was bad or two name patterns were too complex to compare.
+JSON: {"requests": [URI, ...], "resources": [URI and in it "requests": [TEXT, ...],
+...], "errors": [ERROR, ...]}, a line for each resource; "requests" in it has the
+texts of those that it is compatible with, and resources without one are only there
+with --matrix
+"""
+from __future__ import annotations
+
+from rocon_uri.cli.display import painter
+from rocon_uri.cli.given import Report, say
+from rocon_uri.compatibility import is_compatible
+from rocon_uri.exceptions import PatternTooComplex, quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from typing import Iterable, Iterator, List, Optional, Tuple
+    from rocon_uri.cli.given import GivenURI
+
+__all__ = ['add_arguments', 'main']
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the verb takes."""
+    parser.add_argument('requests', metavar='REQUEST', nargs='*',
+                        help='a URI, as what an app runs on')
+    parser.add_argument('--requests-in', metavar='FILE',
+                        help='take requests from a file, after those given as arguments')
+    parser.add_argument('--in', dest='resources_in', metavar='FILE', required=True,
+                        help='the resources to find them among, as robots')
+    parser.add_argument('--matrix', action='store_true', help='show requests against resources')
+
+
+def main(args: argparse.Namespace) -> int:
+    """Do it, and return the exit status."""
+    if not args.requests and args.requests_in is None:
+        say('rocon_uri match: error: give a REQUEST, or a file of them with --requests-in')
+        return 2
+    if args.requests_in == args.resources_in == '-':
+        say('rocon_uri match: error: requests and resources cannot both be standard input')
+        return 2
+    report = Report(args.json)
+    requests = [given for given in map(report.read, args.requests) if given]
+    if args.requests_in is not None:
+        requests.extend(report.read_file(args.requests_in))
+    matches = Matches(requests, report.read_file(args.resources_in), report, args.matrix)
+    if args.json:
+        _print_json(matches, report)
+    elif args.matrix:
+        _print_matrix(matches)
+    elif args.requests_in is None and len(args.requests) == 1:
+        for resource, _ in matches:
+            print(resource.text)
+    else:
+        _print_pairs(matches)
+    return report.status or (0 if matches.found else 1)
+
+
+class Matches:
+    """
+    Which resources which requests are compatible with; iterate it once.
+
+    :param requests: list of GivenURI
+    :param resources: iterable of GivenURI
+    :param Report report: is told of the undecided ones, after all others
+    :param bool every: also the resources that no request is compatible with
+
+    Iteration gives each resource with a list of what is said of it to each request: a bool, or
+    None for undecided. ``found`` says whether there was a True among those so far.
+    """
+
+    def __init__(self, requests: List[GivenURI], resources: Iterable[GivenURI], report: Report,
+                 every: bool) -> None:
+        self.requests = requests
+        self.found = False
+        self._resources = resources
+        self._report = report
+        self._every = every
+
+    def __iter__(self) -> Iterator[Tuple[GivenURI, List[Optional[bool]]]]:
+        undecided = []
+        for resource in self._resources:
+            verdicts: List[Optional[bool]] = []
+            for request in self.requests:
+                try:
+                    verdicts.append(is_compatible(request.uri, resource.uri))
+                except PatternTooComplex as error:
+                    undecided.append((request, resource, error))
+                    verdicts.append(None)
+            matched = True in verdicts
+            self.found = self.found or matched
+            if matched or self._every:
+                yield resource, verdicts
+        for request, resource, too_complex in undecided:
+            problem = 'undecided for request %s: %s' % (quoted(request.text), too_complex.problem)
+            self._report.bad_uri(
+                PatternTooComplex(problem, resource.text, 'name', resource.uri.name.string,
+                                  advice=too_complex.advice), resource.file, resource.line)
+
+
+def _print_pairs(matches: Matches) -> None:
+    width = max((len(request.label) for request in matches.requests), default=0)
+    paint = painter()
+    for resource, verdicts in matches:
+        for request, verdict in zip(matches.requests, verdicts):
+            if verdict:
+                print('%s  %s' % (paint(request.label.ljust(width), 'cyan'), resource.text))
+
+
+def _print_matrix(matches: Matches) -> None:
+    paint = painter()
+    for index, request in enumerate(matches.requests):
+        print('| ' * index + paint(request.label, 'bold'))
+    marks = {True: paint('x', 'green'), False: paint('.', 'faint'), None: paint('?', 'red')}
+    for resource, verdicts in matches:
+        print('%s  %s' % (' '.join(marks[verdict] for verdict in verdicts), resource.text))
+
+
+def _print_json(matches: Matches, report: Report) -> None:
+    """Print the object as it comes, since there may be more resources than fit into memory."""
+    import json     # here, since most calls do not need it
+    print('{"requests": %s,' % json.dumps([request.as_json() for request in matches.requests]))
+    print(' "resources": [', end='')
+    separator = '\n  '
+    for resource, verdicts in matches:
+        entry = resource.as_json()
+        entry['requests'] = [request.text
+                             for request, verdict in zip(matches.requests, verdicts) if verdict]
+        print(separator + json.dumps(entry), end='')
+        separator = ',\n  '
+    print('],\n "errors": %s}' % json.dumps(report.errors))

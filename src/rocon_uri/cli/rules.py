@@ -1,0 +1,36 @@
+"""
+Show the grammar of a rocon URI as EBNF, with the vocabulary in it.
+
+Example:
+  rocon_uri rules | less
+
+The values that packages on this machine and ROCON_URI_RULES add are in it.
+
+Exit status: 0
+JSON: {"ebnf": TEXT, "errors": []}
+"""
+from __future__ import annotations
+
+from rocon_uri.cli.display import print_json
+from rocon_uri.grammar import VOCABULARY_FIELDS, ebnf
+from rocon_uri.vocabulary import complete
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ['add_arguments', 'main']
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the verb takes: nothing."""
+
+
+def main(args: argparse.Namespace) -> int:
+    """Do it, and return the exit status."""
+    text = ebnf({field: complete().field(field) for field in VOCABULARY_FIELDS})
+    if args.json:
+        print_json({'ebnf': text, 'errors': []})
+    else:
+        print(text, end='')
+    return 0
