@@ -1,0 +1,301 @@
+"""
+Many resources, and requests that are answered without asking each of them.
+
+Resources are of few kinds, even where there are a million of them: a kind is the three fields with
+registered values, and the concert. A request is compared with each kind, not with each resource.
+Within a kind, names are found in order (`rocon_uri.name_index`), and a pattern that many resources
+have is compared once.
+"""
+from __future__ import annotations
+
+from collections.abc import Mapping, MutableMapping
+
+from rocon_uri.compatibility import is_compatible
+from rocon_uri.exceptions import PatternTooComplex, quoted
+from rocon_uri.field import UnregisteredValue
+from rocon_uri.name_index import NameIndex
+from rocon_uri.uri import RoconURI, aligned, parse
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import (Any, Collection, Dict, Iterable, Iterator, Optional, Set, Tuple, Type,
+                        Union)
+    from rocon_uri.field import ValuesField
+    from rocon_uri.name_pattern import NamePattern
+    from rocon_uri.vocabulary import Vocabulary
+    Resource = Union[str, RoconURI]
+    KindKey = Tuple[ValuesField, ValuesField, ValuesField, str, Vocabulary]
+    Resources = MutableMapping[RoconURI, Any]
+    Verdicts = Dict[NamePattern, Optional[bool]]
+else:
+    Resources, Verdicts = MutableMapping, dict
+
+__all__ = ['ResourceIndex']
+
+
+class ResourceIndex(Resources):
+    """
+    A mapping from resources to payloads of the caller's, which requests are matched with.
+
+    A resource is given as str or RoconURI and comes back as RoconURI. It may have alternatives,
+    groups and a pattern itself. As in a dict, resources come in the order in which they were
+    added, and an equal one replaces the payload and keeps its place.
+
+    A request is str or RoconURI too. It matches the resources with which `is_compatible` says it
+    is compatible, and a question costs what its answer is worth, however many resources there
+    are; only a pattern that says neither how a name starts nor how it ends is tried on all names.
+    What a question about names needs first is built when it is first asked.
+
+    :param resources: a mapping from resources to payloads, or an iterable of resources, whose
+        payload is then None
+    :raises RoconURIValueError: for a text that is not legal, as do all methods that take one
+
+    >>> fleet = ResourceIndex(['rocon:/pr2/bob', 'rocon:/kobuki/bob', 'rocon:/pr2/alice'])
+    >>> [robot.name.string for robot in fleet.find('rocon:/pr2')], fleet.count('rocon:/*/bob')
+    (['bob', 'alice'], 2)
+    """
+
+    def __init__(self, resources: Union[Mapping[Any, Any], Iterable[Resource]] = ()) -> None:
+        self.clear()
+        if isinstance(resources, Mapping):
+            self.update(resources)
+        else:
+            for uri in resources:
+                self.add(uri)
+
+    def clear(self) -> None:
+        """Remove every resource."""
+        self._numbers: Dict[RoconURI, int] = {}     # larger for one that was added later
+        self._payloads: Dict[int, Any] = {}         # only those that are not None
+        self._kinds: Dict[KindKey, _Kind] = {}
+        self._next_number = 0
+
+    def add(self, uri: Resource, payload: Any = None) -> None:
+        """
+        Add a resource, or give the one that is there another payload.
+
+        :param uri: RoconURI, or str that is parsed
+        :param payload: anything
+        """
+        uri = parse(uri)
+        number = self._numbers.setdefault(uri, self._next_number)
+        if number == self._next_number:
+            self._next_number += 1
+            key = _kind_key(uri)
+            kind = self._kinds.get(key)
+            if kind is None:
+                kind = self._kinds[key] = _Kind(uri)
+            kind.add(number, uri)
+        if payload is None:
+            self._payloads.pop(number, None)
+        else:
+            self._payloads[number] = payload
+
+    def discard(self, uri: Resource) -> None:
+        """
+        Remove a resource if it is there.
+
+        :param uri: RoconURI, or str that is parsed
+        """
+        self.pop(uri, None)
+
+    def find(self, request: Resource) -> Iterator[RoconURI]:
+        """
+        The resources that match a request, in the order in which they were added.
+
+        They are those that were there when this was called, whatever is changed in between.
+
+        :param request: RoconURI, or str that is parsed
+        :returns: iterator of RoconURI
+        :raises PatternTooComplex: after all others, if there are resources with a pattern that
+            takes too much work to compare; these are its ``undecided``, a list of RoconURI
+
+        >>> ResourceIndex(['rocon:/pr2/bob', 'rocon:/pr2|pc/b*']).count('rocon:/pc')
+        1
+        """
+        request = parse(request)
+        found: Dict[int, RoconURI] = {}
+        undecided: Dict[int, RoconURI] = {}
+        for resources, numbers in self._matches(request, undecided):
+            if numbers is resources:
+                found.update(resources)
+            else:
+                found.update(zip(numbers, map(resources.__getitem__, numbers)))
+        return _in_order(request, found, undecided)
+
+    def count(self, request: Resource) -> int:
+        """
+        How many resources match a request.
+
+        :param request: RoconURI, or str that is parsed
+        :returns: int
+        :raises PatternTooComplex: if that takes too much work to decide for some of them; these
+            are its ``undecided``, a list of RoconURI
+        """
+        request = parse(request)
+        undecided: Dict[int, RoconURI] = {}
+        count = sum(len(numbers) for _, numbers in self._matches(request, undecided))
+        _check_decided(request, undecided)
+        return count
+
+    def any(self, request: Resource) -> bool:
+        """
+        Does any resource match a request?
+
+        :param request: RoconURI, or str that is parsed
+        :returns: bool
+        :raises PatternTooComplex: if none is known to match, and for some of them that takes too
+            much work to decide; these are its ``undecided``, a list of RoconURI
+        """
+        request = parse(request)
+        undecided: Dict[int, RoconURI] = {}
+        for _, numbers in self._matches(request, undecided):
+            if numbers:
+                return True
+        _check_decided(request, undecided)
+        return False
+
+    def _matches(self, request: RoconURI, undecided: Dict[int, RoconURI]
+                 ) -> Iterator[Tuple[Dict[int, RoconURI], Collection[int]]]:
+        """For each kind that meets the request, its resources, and which of them match."""
+        asked = request.replace(name='*')
+        verdicts = _Verdicts(request.name.pattern)
+        for kind in self._kinds.values():
+            resources = kind.resources
+            uri, requested = kind.uri, asked
+            if uri._vocabulary is not asked._vocabulary:
+                try:
+                    uri, requested = aligned(uri, asked)
+                except UnregisteredValue:       # which a comparison with anything at all survives
+                    yield resources, [number for number, resource in resources.items()
+                                      if is_compatible(resource, request)]
+                    continue
+            if is_compatible(uri, requested):
+                yield resources, kind.named(verdicts, undecided)
+
+    def __getitem__(self, uri: Resource) -> Any:
+        return self._payloads.get(self._numbers[parse(uri)])
+
+    def __setitem__(self, uri: Resource, payload: Any) -> None:
+        self.add(uri, payload)
+
+    def __delitem__(self, uri: Resource) -> None:
+        uri = parse(uri)
+        number = self._numbers.pop(uri)
+        self._payloads.pop(number, None)
+        kind = self._kinds.get(_kind_key(uri))
+        if kind is None or number not in kind.resources:    # an equal one, of another vocabulary
+            kind = next(kind for kind in self._kinds.values() if number in kind.resources)
+        kind.remove(number)
+        if not kind.resources:
+            del self._kinds[_kind_key(kind.uri)]
+
+    def popitem(self) -> Tuple[RoconURI, Any]:
+        """
+        Remove the resource that was added last.
+
+        :returns: (RoconURI, its payload)
+        :raises KeyError: if there is none
+        """
+        for uri in reversed(self._numbers):
+            return uri, self.pop(uri)
+        raise KeyError('the index is empty')
+
+    def __iter__(self) -> Iterator[RoconURI]:
+        return iter(self._numbers)
+
+    def __len__(self) -> int:
+        return len(self._numbers)
+
+    def __repr__(self) -> str:
+        return '<ResourceIndex of %d resources>' % len(self)
+
+    def __reduce__(self) -> Tuple[Type[ResourceIndex], Tuple[Dict[RoconURI, Any]]]:
+        return type(self), (dict(self),)
+
+
+def _kind_key(uri: RoconURI) -> KindKey:
+    return (uri._hardware_platform, uri._application_framework, uri._operating_system,
+            uri._concert_name, uri._vocabulary)
+
+
+class _Kind:
+    """
+    The resources with the same fields but the name, and the same concert.
+
+    :param RoconURI uri: one of them
+    """
+
+    __slots__ = ('uri', 'resources', '_names', '_patterned')
+
+    def __init__(self, uri: RoconURI) -> None:
+        self.uri = uri.replace(name='*', rocon_app='')      # all that are of this kind
+        self.resources: Dict[int, RoconURI] = {}
+        self._names = NameIndex(self.resources)
+        self._patterned: Dict[NamePattern, Set[int]] = {}
+
+    def add(self, number: int, uri: RoconURI) -> None:
+        self.resources[number] = uri
+        if uri._pattern is None:
+            self._names.add(uri._name, number)
+        else:
+            self._patterned.setdefault(uri._pattern, set()).add(number)
+
+    def remove(self, number: int) -> None:
+        uri = self.resources.pop(number)
+        if uri._pattern is None:
+            self._names.discard(uri._name, number)
+        else:
+            numbers = self._patterned[uri._pattern]
+            numbers.remove(number)
+            if not numbers:
+                del self._patterned[uri._pattern]
+
+    def named(self, verdicts: _Verdicts, undecided: Dict[int, RoconURI]) -> Collection[int]:
+        """The numbers of the resources whose name the request admits, or may admit."""
+        if verdicts.name.is_any:
+            return self.resources
+        found = self._names.numbers(verdicts.name)
+        for pattern, numbers in self._patterned.items():
+            verdict = verdicts[pattern]
+            if verdict:
+                found += numbers
+            elif verdict is None:
+                undecided.update((number, self.resources[number]) for number in numbers)
+        return found
+
+
+class _Verdicts(Verdicts):
+    """
+    Does a pattern meet the name of the request? None where that takes too much work to decide.
+
+    :param NamePattern name: what the request says
+    """
+
+    def __init__(self, name: NamePattern) -> None:
+        self.name = name
+
+    def __missing__(self, pattern: NamePattern) -> Optional[bool]:
+        try:
+            verdict: Optional[bool] = self.name.intersects(pattern)
+        except PatternTooComplex:
+            verdict = None
+        self[pattern] = verdict
+        return verdict
+
+
+def _in_order(request: RoconURI, found: Dict[int, RoconURI],
+              undecided: Dict[int, RoconURI]) -> Iterator[RoconURI]:
+    for number in sorted(found):
+        yield found[number]
+    _check_decided(request, undecided)
+
+
+def _check_decided(request: RoconURI, undecided: Dict[int, RoconURI]) -> None:
+    if undecided:
+        name = request.name.string
+        error = PatternTooComplex(
+            'name %s takes too much work to compare with the patterns of %d resources'
+            % (quoted(name), len(undecided)), str(request), 'name', name)
+        error.undecided = [undecided[number] for number in sorted(undecided)]
+        raise error

@@ -1,0 +1,270 @@
+"""An index of resources: a mapping in order, whose answers are those of a loop."""
+import copy
+import pickle
+from collections.abc import MutableMapping
+
+import pytest
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
+
+from rocon_uri import PatternTooComplex, RoconURI, RoconURIValueError, Vocabulary, is_compatible, parse
+from rocon_uri.resource_index import ResourceIndex
+from rocon_uri.vocabulary import complete
+
+FLEET = ['rocon:/pr2/bob/noetic/focal', 'rocon:/kobuki/bob_1/noetic', 'rocon:/pr2/bob_2/indigo',
+         'rocon:/kobuki|pr2/al*/noetic', 'rocon:/phone/*/*/android', 'rocon://north/pr2/bob_3/*/*',
+         'rocon:/turtlebot2/arm_left/noetic/ubuntu', 'rocon:/turtlebot2/[a-c]o+b_[0-9]/noetic',
+         'rocon:/tablet/alice/ros/trusty|chrome', 'rocon:/pr2/bob/noetic/focal#apps/teleop']
+
+
+@pytest.fixture
+def fleet():
+    return ResourceIndex(FLEET)
+
+
+@pytest.mark.parametrize('request_text, places', [
+    ('rocon:/', range(10)),
+    ('rocon:/pr2', [0, 2, 3, 5, 9]),
+    ('rocon:/robot', [0, 1, 2, 3, 5, 6, 7, 9]),
+    ('rocon:/mobile_device', [4, 8]),
+    ('rocon:/*/*/*/linux', [0, 1, 2, 3, 5, 6, 7, 8, 9]),
+    ('rocon:/*/*/*/chrome', [1, 2, 3, 5, 7, 8]),
+    ('rocon:/*/bob', [0, 4, 9]),
+    ('rocon:/*/bob_1', [1, 4, 7]),
+    ('rocon:/*/alice', [3, 4, 8]),
+    ('rocon:/*/bob_*', [1, 2, 4, 5, 7]),
+    ('rocon:/*/*_left', [3, 4, 6]),
+    ('rocon:/*/a*_left', [3, 4, 6]),
+    ('rocon:/*/b.*2', [2, 4, 7]),
+    ('rocon:/*/[a-b].*[13]', [1, 3, 4, 5, 7]),
+    ('rocon:/*/nobody', [4]),
+    ('rocon://south/pr2', [0, 2, 3, 9]),
+    ('rocon:/warthog', []),
+])
+def test_a_request_finds_the_resources_it_is_compatible_with(fleet, request_text, places):
+    expected = [parse(FLEET[place]) for place in places]
+    assert list(fleet.find(request_text)) == expected
+    assert fleet.count(request_text) == len(expected)
+    assert fleet.any(parse(request_text)) is bool(expected)
+
+
+def test_it_is_a_mapping_in_order_of_insertion(fleet):
+    assert isinstance(fleet, MutableMapping)
+    assert list(fleet) == [parse(text) for text in FLEET]
+    assert all(type(uri) is RoconURI for uri in fleet)
+    fleet['rocon:/pc/marvin'] = 'depressed'
+    assert list(fleet.items())[-1] == (parse('rocon:/pc/marvin/*/*'), 'depressed')
+    assert fleet['rocon:/pc/marvin'] == fleet.pop(parse('rocon:/pc/marvin')) == 'depressed'
+    with pytest.raises(KeyError):
+        fleet['rocon:/pc/marvin']
+    with pytest.raises(KeyError):
+        del fleet['rocon:/pc/marvin']
+
+
+def test_a_resource_without_payload_has_none():
+    index = ResourceIndex({'rocon:/pr2': 'payload', 'rocon:/pc': None})
+    assert dict(index) == {parse('rocon:/pr2'): 'payload', parse('rocon:/pc'): None}
+    assert ResourceIndex(['rocon:/pc']) == {parse('rocon:/pc'): None}
+
+
+def test_an_equal_resource_replaces_the_payload_and_keeps_its_place(fleet):
+    fleet.add('rocon:/pr2|kobuki/al*/noetic', 'new')
+    assert fleet['rocon:/kobuki|pr2/al*/noetic/*'] == 'new'
+    assert list(fleet) == [parse(text) for text in FLEET]
+    fleet.add('rocon:/kobuki|pr2/al*/noetic')
+    assert fleet['rocon:/kobuki|pr2/al*/noetic'] is None
+    assert fleet.count('rocon:/') == len(fleet) == len(FLEET)
+
+
+def test_discarding_what_is_not_there_changes_nothing(fleet):
+    fleet.discard('rocon:/warthog')
+    fleet.discard(FLEET[0])
+    fleet.discard(FLEET[0])
+    assert list(fleet) == [parse(text) for text in FLEET[1:]]
+
+
+def test_it_is_emptied_from_the_end(fleet):
+    assert fleet.popitem() == (parse(FLEET[-1]), None)
+    fleet.clear()
+    assert not fleet and not fleet.any('rocon:/')
+    with pytest.raises(KeyError):
+        fleet.popitem()
+
+
+def test_what_is_found_are_the_resources_at_the_time_of_the_call(fleet):
+    found = fleet.find('rocon:/pr2')
+    fleet.clear()
+    assert len(list(found)) == 5
+
+
+def test_iteration_over_it_notices_changes_as_that_over_a_dict_does(fleet):
+    with pytest.raises(RuntimeError):
+        for uri in fleet:
+            fleet.discard(uri)
+
+
+@pytest.mark.parametrize('ask', ['add', 'discard', 'find', 'count', 'any', '__getitem__',
+                                 '__contains__'])
+def test_what_is_not_a_uri_is_an_error_at_once(fleet, ask):
+    with pytest.raises(RoconURIValueError, match='turtelbot'):
+        getattr(fleet, ask)('rocon:/turtelbot')
+
+
+def test_a_copy_is_another_index(fleet):
+    fleet['rocon:/pc'] = ['payload']
+    for other in (copy.copy(fleet), copy.deepcopy(fleet), pickle.loads(pickle.dumps(fleet))):
+        assert list(other.items()) == list(fleet.items())
+        other.discard('rocon:/pc')
+        assert 'rocon:/pc' in fleet
+        assert other.count('rocon:/*/bob*') == fleet.count('rocon:/*/bob*') - 1
+
+
+class TestUndecided:
+    """Two patterns that take too much work to compare."""
+
+    REQUEST = 'rocon:/*/(a|b)*a(a|b){200}'
+    HARD = 'rocon:/pr2/(a|b)*b(a|b){120}'
+
+    def test_everything_else_comes_first(self):
+        with pytest.raises(PatternTooComplex):
+            is_compatible(self.REQUEST, self.HARD)
+        index = ResourceIndex([self.HARD, 'rocon:/pr2/a*', self.HARD + '#app', 'rocon:/pr2/bob'])
+        found = index.find(self.REQUEST)
+        assert next(found) == parse('rocon:/pr2/a*')
+        with pytest.raises(PatternTooComplex, match='2 resources') as raised:
+            next(found)
+        assert raised.value.undecided == [parse(self.HARD), parse(self.HARD + '#app')]
+
+    def test_any_is_true_if_one_matches_that_is_decided(self):
+        index = ResourceIndex([self.HARD])
+        with pytest.raises(PatternTooComplex) as raised:
+            index.any(self.REQUEST)
+        assert raised.value.undecided == [parse(self.HARD)]
+        index.add('rocon:/pr2/a*')
+        assert index.any(self.REQUEST)
+
+    def test_a_count_is_exact_or_an_error(self):
+        index = ResourceIndex([self.HARD, 'rocon:/pr2/a*'])
+        with pytest.raises(PatternTooComplex) as raised:
+            index.count(self.REQUEST)
+        assert raised.value.undecided == [parse(self.HARD)]
+        assert index.count('rocon:/pc') == 0
+
+    def test_what_no_field_lets_through_is_not_undecided(self):
+        index = ResourceIndex([self.HARD])
+        assert not index.any(self.REQUEST.replace('*', 'pc', 1))
+
+
+class TestVocabularies:
+    """Resources and requests that were read with different vocabularies."""
+
+    ours = complete().extended({'hardware_platform': {'mobile_device': ['our_phone']}})
+
+    def test_a_group_has_the_extent_that_the_newer_one_gives_it(self):
+        index = ResourceIndex(['rocon:/mobile_device/bob', 'rocon:/pr2/al'])
+        assert list(index.find(parse('rocon:/our_phone', self.ours))) == [
+            parse('rocon:/mobile_device/bob')]
+        index.add(parse('rocon:/our_phone/marvin', self.ours))
+        assert index.count('rocon:/mobile_device') == 2
+        assert index.count('rocon:/pr2') == 1
+
+    def test_an_equal_resource_of_another_vocabulary_is_the_same(self):
+        index = ResourceIndex([parse('rocon:/pr2/bob', self.ours)])
+        index.add('rocon:/pr2/bob')
+        assert len(index) == index.count('rocon:/pr2') == 1
+        index.discard('rocon:/pr2/bob')
+        assert not index and not index.any('rocon:/')
+
+    def test_anything_at_all_meets_what_is_not_registered(self):
+        unknown = parse('rocon:/our_robot/bob', Vocabulary.open())
+        index = ResourceIndex(['rocon:/', 'rocon:/pr2', unknown])
+        assert list(index.find('rocon:/')) == [parse('rocon:/'), parse('rocon:/pr2'), unknown]
+        assert list(index.find(unknown)) == [parse('rocon:/'), unknown]
+
+    def test_of_two_that_know_nothing_of_each_other_only_anything_at_all_meets(self):
+        theirs = Vocabulary({'hardware_platform': ['their_robot']})
+        index = ResourceIndex(['rocon:/'])
+        assert index.count(parse('rocon:/their_robot/bob', theirs)) == 1
+        index = ResourceIndex([parse('rocon:/their_robot/bob', theirs)])
+        assert index.count('rocon:/') == 1
+        newest = Vocabulary({'hardware_platform': ['newest']})
+        with pytest.raises(RoconURIValueError, match='their_robot'):
+            index.count(parse('rocon:/newest', newest))
+
+
+PLATFORMS = ['*', 'pr2', 'kobuki', 'pr2|kobuki', 'kobuki|pr2', 'robot', 'phone|tablet', 'galaxy',
+             'mobile_device']
+FRAMEWORKS = ['*', 'noetic', 'ros', 'indigo|noetic']
+SYSTEMS = ['*', 'focal', 'ubuntu', 'trusty|chrome', 'linux']
+NAMES = ['*', 'bob', 'bob_1', 'bob_2', 'bob_10', 'al', 'al_2', 'bo', 'z', 'Z', 'bob_*', 'b*', '*_2',
+         '*b*', '**', 'b*_*2', 'bob_[0-9]+', '[a-z]+_?[12]*', '(al|bob).*', '[a-z]o?b?', '.*[_A-Z].*',
+         'b.*_.', '.{2,4}', '(bob)_2']
+VOCABULARIES = [Vocabulary.bundled(), complete(), TestVocabularies.ours,
+                TestVocabularies.ours.opened()]
+
+
+def uris(vocabularies=st.none()):
+    """RoconURIs of few parts, so that many of them meet."""
+    return st.builds(
+        RoconURI.from_fields, st.sampled_from(['', '', '', 'north', 'south']),
+        st.sampled_from(PLATFORMS), st.sampled_from(NAMES), st.sampled_from(FRAMEWORKS),
+        st.sampled_from(SYSTEMS), st.sampled_from(['', '', 'apps/teleop']), vocabularies)
+
+
+class IndexAndLoop(RuleBasedStateMachine):
+    """Whatever is added and discarded, an index and a loop over a dict give the same answers."""
+
+    vocabularies = st.none()
+
+    def __init__(self):
+        super().__init__()
+        self.index = ResourceIndex()
+        self.expected = {}
+
+    @rule(data=st.data(), payload=st.sampled_from([None, 1, 2]), as_text=st.booleans())
+    def add(self, data, payload, as_text):
+        uri = data.draw(uris(self.vocabularies))
+        self.index.add(str(uri) if as_text and uri.vocabulary is parse().vocabulary else uri,
+                       payload)
+        self.expected[uri] = payload
+
+    @rule(data=st.data(), count=st.integers(2, 150))
+    def add_names(self, data, count):
+        """So many at once that an index rather sorts again than inserts them."""
+        uri = data.draw(uris(self.vocabularies))
+        for number in range(count):
+            self.index.add(uri.replace(name='bob_%d' % number), number)
+            self.expected[uri.replace(name='bob_%d' % number)] = number
+
+    @rule(data=st.data())
+    def discard(self, data):
+        known = list(self.expected)
+        uri = data.draw(st.one_of(st.sampled_from(known), uris()) if known else uris())
+        self.index.discard(uri)
+        self.expected.pop(uri, None)
+
+    @rule(data=st.data(), ask=st.sampled_from(['find', 'count', 'any']))
+    def ask(self, data, ask):
+        request = data.draw(uris(self.vocabularies))
+        matching = [uri for uri in self.expected if is_compatible(request, uri)]
+        answer = getattr(self.index, ask)(request)
+        assert (list(answer) if ask == 'find' else answer) == {
+            'find': matching, 'count': len(matching), 'any': bool(matching)}[ask]
+
+    @invariant()
+    def the_same_mapping(self):
+        assert list(self.index.items()) == list(self.expected.items())
+        assert len(self.index) == len(self.expected)
+
+
+class OfSeveralVocabularies(IndexAndLoop):
+    """The same, where URIs were read with different vocabularies."""
+
+    vocabularies = st.sampled_from(VOCABULARIES)
+
+
+TestIndexAndLoop = IndexAndLoop.TestCase
+TestIndexAndLoop.settings = settings(max_examples=50, stateful_step_count=40, deadline=None)
+TestOfSeveralVocabularies = OfSeveralVocabularies.TestCase
+TestOfSeveralVocabularies.settings = TestIndexAndLoop.settings
