@@ -98,6 +98,8 @@ class Reader:
     Nested collections are nested calls, so that the state of each is in plain local variables.
     """
 
+    next_event: Callable[[], Any]       # of the parser
+
     def __init__(self, text: str, file_name: str) -> None:
         self.text = text
         self.file_name = file_name

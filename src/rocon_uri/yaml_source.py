@@ -27,7 +27,7 @@ of ``[``.
 
 - Plain scalars have the types of YAML 1.1, as in ``yaml.safe_load`` (``yes``, ``0x1F``, ``1:30``),
   but for dates and ``=``, which stay text. A number of over 256 characters is refused.
-- A tag makes nothing: the core types' tags (``!!str``, ``!!int``, ...) are read, others are refused.
+- A tag makes nothing: those of the core types (``!!str``, ``!!int``, ...) are read, others refused.
 - Merge keys (``<<``) are read; a mapping's own keys win over merged ones, wherever they stand.
 - A repeated key is not an error here. The last one wins, and ``YamlMapping.repeated`` lists what
   was lost; ``1``, ``1.0`` and ``true`` are one key, as in Python. A collection as key is refused.
@@ -258,17 +258,19 @@ def read_file(path: Union[str, PathLike[str]]) -> bytes:
 
 def _text(content: Union[str, bytes], file_name: str) -> str:
     """The content as text that either parser takes as it is."""
-    if not isinstance(content, str):
+    if isinstance(content, str):
+        text = content
+    else:
         encoding = 'utf-16' if content[:2] in (b'\xff\xfe', b'\xfe\xff') else 'utf-8'
         try:
-            content = content.decode(encoding)
+            text = content.decode(encoding)
         except UnicodeDecodeError as error:
             before = content[:error.start].decode(encoding, 'replace')
             raise YamlError('not %s text: %s' % (encoding.upper(), error.reason), file_name,
                             *end_position(before)) from error
-    if content.count('%TAG') > _MAX_TAG_DIRECTIVES:
+    if text.count('%TAG') > _MAX_TAG_DIRECTIVES:
         raise YamlError('more than %d %%TAG directives' % _MAX_TAG_DIRECTIVES, file_name, 1, 1)
-    return content[1:] if content.startswith('\ufeff') else content
+    return text[1:] if text.startswith('\ufeff') else text
 
 
 def end_position(text: str) -> Position:

@@ -178,7 +178,8 @@ class Interface:
         :param str topic_name: its name
         :param InterfaceElement interface_element: what it is
         :param str grouping: ``'requires'``, ``'provides'`` or ``None``
-        :raises ValueError: if the grouping is another
+        :raises ValueError: if the grouping is another; or if it is ``None`` and the name is that
+            of a grouping, which a file could not tell apart
         :raises RuntimeError: if the interface has a topic of that name
         """
         self._add('topics', topic_name, interface_element, grouping)

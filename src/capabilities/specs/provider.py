@@ -159,7 +159,7 @@ class CapabilityProvider(RemappingSpec):
 
 
 def capability_provider_from_file_path(file_path: Union[str, PathLike[str]]
-                                        ) -> CapabilityProvider:
+                                       ) -> CapabilityProvider:
     """
     Read the capability provider in a file.
 
@@ -187,7 +187,7 @@ def capability_provider_from_file(file_handle: IO[Any]) -> CapabilityProvider:
 
 
 def capability_provider_from_string(string: str, file_name: str = '<string>'
-                                     ) -> CapabilityProvider:
+                                    ) -> CapabilityProvider:
     """
     Read a capability provider.
 
@@ -202,7 +202,7 @@ def capability_provider_from_string(string: str, file_name: str = '<string>'
 
 
 def capability_provider_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>'
-                                   ) -> CapabilityProvider:
+                                  ) -> CapabilityProvider:
     """
     Make a capability provider of plain data.
 

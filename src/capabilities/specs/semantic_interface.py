@@ -19,7 +19,7 @@ Semantic capability interfaces: an interface with a meaning of its own, and new 
 from __future__ import annotations
 
 from capabilities.specs._reading import (
-    SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string)
+    SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string, value_place)
 from capabilities.specs.common import InvalidSpec, shown
 from capabilities.specs.interface import CapabilityInterface, InterfaceElement
 from capabilities.specs.remappings import RemappingSpec
@@ -28,7 +28,7 @@ from rocon_uri.yaml_source import near_misses, quoted
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from os import PathLike
-    from typing import IO, Any, Dict, Mapping, Optional, Union
+    from typing import IO, Any, Dict, Mapping, Optional, Sequence, Union
 
 __all__ = ['InvalidSemanticInterface', 'SemanticCapabilityInterface',
            'semantic_capability_interface_from_dict', 'semantic_capability_interface_from_file',
@@ -99,14 +99,15 @@ class SemanticCapabilityInterface(RemappingSpec):
             new_name = self._remappings_by_type[section].get(name) or self._in_namespace(name)
             old_name = old_names.setdefault((section, new_name), name)
             if old_name != name:
-                raise self._error(section, name, '%s and %s of %s both come out as %s' % (
-                    quoted(old_name), quoted(name), section, quoted(new_name)))
+                raise self._error(
+                    section, [name, old_name], '%s and %s of %s both come out as %s' % (
+                        quoted(old_name), quoted(name), section, quoted(new_name)))
             new_element = InterfaceElement(
                 new_name, element.kind, element.type, element.description)
             try:
                 resolved._add(section, new_name, new_element, grouping)
             except ValueError as error:
-                raise self._error(section, name, str(error)) from None
+                raise self._error(section, [name], str(error)) from None
         for dynamic_parameter in interface.dynamic_parameters:
             resolved.add_dynamic_parameter(dynamic_parameter)
         return resolved
@@ -143,21 +144,22 @@ class SemanticCapabilityInterface(RemappingSpec):
             for name in new_names:
                 if name not in names[section]:
                     near = near_misses(name, names[section])
-                    raise self._error(section, name, '%s has no %s in %s to remap%s' % (
+                    raise self._error(section, [name], '%s has no %s in %s to remap%s' % (
                         shown(interface.name), quoted(name), section,
                         ' (did you mean %s?)' % ' or '.join(map(quoted, near)) if near else ''))
 
-    def _error(self, section: str, name: str, msg: str) -> InvalidSemanticInterface:
-        """The error of a name; it is where the name is remapped, if it is and was read."""
-        remappings = (self.source or {}).get('remappings')
-        new_names = remappings.get(section) if isinstance(remappings, dict) else None
-        line, column = key_place(new_names, name) if isinstance(new_names, dict) else (None, None)
-        return InvalidSemanticInterface(
-            msg, '<%s>' % self.name if self.file_name is None else self.file_name, line, column)
+    def _error(self, section: str, names: Sequence[str], msg: str) -> InvalidSemanticInterface:
+        """The error of these names; it is where one is remapped, else at the namespace."""
+        source = self.source or {}
+        new_names = (source.get('remappings') or {}).get(section) or {}
+        place = next((key_place(new_names, name) for name in names if name in new_names),
+                     value_place(source, 'global_namespace'))
+        file_name = '<%s>' % self.name if self.file_name is None else self.file_name
+        return InvalidSemanticInterface(msg, file_name, *place)
 
 
 def semantic_capability_interface_from_file_path(file_path: Union[str, PathLike[str]]
-                                        ) -> SemanticCapabilityInterface:
+                                                 ) -> SemanticCapabilityInterface:
     """
     Read the semantic capability interface in a file.
 
@@ -185,7 +187,7 @@ def semantic_capability_interface_from_file(file_handle: IO[Any]) -> SemanticCap
 
 
 def semantic_capability_interface_from_string(string: str, file_name: str = '<string>'
-                                     ) -> SemanticCapabilityInterface:
+                                              ) -> SemanticCapabilityInterface:
     """
     Read a semantic capability interface.
 
@@ -200,7 +202,7 @@ def semantic_capability_interface_from_string(string: str, file_name: str = '<st
 
 
 def semantic_capability_interface_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>'
-                                   ) -> SemanticCapabilityInterface:
+                                            ) -> SemanticCapabilityInterface:
     """
     Make a semantic capability interface of plain data.
 
