@@ -1,6 +1,7 @@
 """Rapps: found, read, given what their parents have, and judged against a robot."""
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -110,7 +111,7 @@ def test_a_parent_without_a_package_is_of_the_same_one():
 @pytest.mark.parametrize('text, error', [
     ('', '1:1: found empty, expected a rapp, which is a mapping'),
     ('- display', '1:1: found a list, expected a rapp, which is a mapping'),
-    ('display: [', "2:1: did not find expected node content while parsing a flow node"),
+    ('display: [', '2:1: did not find expected node content while parsing a flow node'),
     ('display: 2048', '1:10: display is 2048, expected text'),
     ('launch: [dance.launch]', '1:9: launch is a list, expected text'),
     ('launch: ""', '1:9: launch is empty, expected text'),
@@ -156,10 +157,8 @@ def test_any_mapping_is_a_rapp_or_is_refused(data):
 
 @given(st.binary(max_size=40))
 def test_any_bytes_are_a_rapp_or_are_refused(content):
-    try:
+    with contextlib.suppress(InvalidRapp):
         read(content)
-    except InvalidRapp:
-        pass
 
 
 # Inheritance
@@ -192,7 +191,8 @@ def test_an_inherited_file_is_relative_to_the_parent():
 
 
 def test_a_missing_parent_is_an_error_of_that_rapp_alone():
-    rapps, errors = family(dance='\nparent_name: ours/motoin', motion='{}', waltz='parent_name: dance')
+    rapps, errors = family(dance='\nparent_name: ours/motoin', motion='{}',
+                           waltz='parent_name: dance')
     assert set(rapps) == {'motion', 'waltz'}
     assert list(map(str, errors)) == [
         "ours/rapps/dance.rapp:2:14: parent_name 'ours/motoin' is no rapp that can be read "
@@ -242,7 +242,7 @@ def test_exported_rapps_are_found_and_a_bad_one_hides_no_other(tmp_path):
             for error in errors] == [
         ('ours/rapps/broken.rapp', 'did not find expected node content while parsing a flow node'),
         ('ours/rapps/missing.rapp', 'cannot be read: No such file or directory'),
-        ('ours/more/dance.rapp', "rapp 'ours/dance' is exported twice")]
+        ('ours/more/dance.rapp', "rapp 'ours/dance' is there already")]
 
 
 @needs_corpus

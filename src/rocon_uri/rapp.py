@@ -22,14 +22,14 @@ import os
 from collections import namedtuple
 
 from capabilities.specs.common import InvalidSpec, shown
-from rocon_uri.yaml_source import YamlError, YamlMapping, load, read_file
+from rocon_uri.yaml_source import YamlError, YamlMapping, YamlSequence, load, read_file
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Dict, Iterator, Optional, Tuple, Union
 
-__all__ = ['INHERITED_KEYS', 'InvalidRapp', 'KEYS', 'Rapp', 'RequiredCapability',
-           'TYPES_OF_REMAPPINGS', 'rapp_from_file_path', 'rapp_from_string']
+__all__ = ['GROUPS_OF_REMAPPINGS', 'INHERITED_KEYS', 'InvalidRapp', 'KEYS', 'Rapp',
+           'RequiredCapability', 'TYPES_OF_REMAPPINGS', 'rapp_from_file_path', 'rapp_from_string']
 
 #: The keys whose values are the names of files, relative to the folder of the one that says it.
 _FILE_KEYS = ('icon', 'launch', 'public_interface', 'public_parameters')
@@ -41,10 +41,11 @@ KEYS = _TEXT_KEYS + ('required_capabilities',)
 #: What a rapp has from its parent where it says nothing itself.
 INHERITED_KEYS = ('display', 'description', 'icon', 'public_interface', 'public_parameters')
 
-#: What a required capability may rename, each in the groups ``requires`` and ``provides``.
+#: What a required capability may rename.
 TYPES_OF_REMAPPINGS = ('topics', 'services', 'actions', 'parameters')
 
-_GROUPS = ('requires', 'provides')
+#: The groups that the names of each type are in.
+GROUPS_OF_REMAPPINGS = ('requires', 'provides')
 
 
 class InvalidRapp(InvalidSpec):
@@ -63,7 +64,9 @@ class InvalidRapp(InvalidSpec):
 RequiredCapability = namedtuple('RequiredCapability', 'name remappings')
 
 
-class Rapp(namedtuple('Rapp', ('name', 'path') + KEYS + ('others', 'files', 'source'))):
+class Rapp(namedtuple('Rapp', 'name path display description icon compatibility launch parent_name '
+                              'public_interface public_parameters required_capabilities others '
+                              'files source')):
     """
     A robot app; a tuple that does not change.
 
@@ -195,7 +198,7 @@ def _required_capabilities(source: YamlMapping, path: str) -> Iterator[RequiredC
     items = source.get('required_capabilities')
     if items is None:
         return
-    if not isinstance(items, list):
+    if not isinstance(items, YamlSequence):
         raise YamlError('required_capabilities is %s, expected a list' % shown(items), path,
                         *source.value_position('required_capabilities'))
     for index, item in enumerate(items):
@@ -215,7 +218,7 @@ def _remappings(capability: YamlMapping, path: str) -> Dict[str, Dict[str, str]]
     found: Dict[str, Dict[str, str]] = {}
     for kind in TYPES_OF_REMAPPINGS:
         grouped = _mapping(interface, kind, path)
-        for group in _GROUPS:
+        for group in GROUPS_OF_REMAPPINGS:
             names = _mapping(grouped, group, path)
             for name in names:
                 new_name = _text(names, name, path, shown(name))

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 
 __all__ = ['InvalidRapp', 'Rapp', 'Reason', 'ReasonKind', 'RequiredCapability', 'Verdict',
            'rapp_file_index_from_package_index', 'rapp_from_file_path', 'rapp_from_string',
-           'rapp_name', 'rapps_from_package_index', 'runnable', 'with_inheritance']
+           'rapp_name', 'rapps_from_package_index', 'rapps_from_rapp_file_index', 'runnable',
+           'with_inheritance']
 
 
 def rapp_name(package: str, path: str) -> str:
@@ -57,9 +58,10 @@ def rapp_file_index_from_package_index(package_index: Mapping[str, Any]) -> Dict
     """
     index: Dict[str, List[str]] = {}
     for name, package in package_index.items():
+        folder = os.path.dirname(package.filename)
         for export in package.exports:
             if export.tagname == 'rocon_app':
-                path = os.path.join(os.path.dirname(package.filename), (export.content or '').strip())
+                path = os.path.join(folder, (export.content or '').strip())
                 index.setdefault(name, []).append(os.path.normpath(path))
     return index
 
@@ -73,20 +75,34 @@ def rapps_from_package_index(
     :returns: (dict of `Rapp` by name, list of `InvalidRapp`); what is wrong with one rapp costs
         that one only
     """
+    rapps, errors = rapps_from_rapp_file_index(rapp_file_index_from_package_index(package_index))
+    related, more_errors = with_inheritance(rapps.values())
+    return related, errors + more_errors
+
+
+def rapps_from_rapp_file_index(
+        rapp_file_index: Mapping[str, Iterable[str]],
+        ) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
+    """
+    The rapps in some files, with what they say themselves.
+
+    :param rapp_file_index: as `rapp_file_index_from_package_index` returns it
+    :returns: (dict of `Rapp` by name, list of `InvalidRapp`); of several rapps of one name, the
+        first counts
+    """
     rapps: Dict[str, Rapp] = {}
     errors: List[InvalidRapp] = []
-    for package, paths in rapp_file_index_from_package_index(package_index).items():
+    for package, paths in rapp_file_index.items():
         for path in paths:
             try:
                 rapp = _rapp_of_package(package, path)
                 if rapp.name in rapps:
-                    raise InvalidRapp('rapp %s is exported twice, the first is %s' % (
-                        quoted(rapp.name), rapps[rapp.name].path), path)
+                    raise InvalidRapp('rapp %s is there already, in %s' % (
+                        quoted(rapp.name), quoted(rapps[rapp.name].path)), path)
                 rapps[rapp.name] = rapp
             except InvalidRapp as error:
                 errors.append(error)
-    related, more_errors = with_inheritance(rapps.values())
-    return related, errors + more_errors
+    return rapps, errors
 
 
 def _rapp_of_package(package: str, path: str) -> Rapp:
@@ -111,12 +127,13 @@ def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[Inval
     errors: Dict[str, InvalidRapp] = {}
     for rapp in by_name.values():
         line: Dict[str, Rapp] = {}      # of descent, from the rapp upwards
-        name: Optional[str] = rapp.name
-        while name in by_name and name not in related and name not in line:
-            line[name] = by_name[name]
-            name = by_name[name].parent_name
-        if name in line:
-            cycle = list(line)[list(line).index(name):]
+        ancestor: Optional[Rapp] = rapp
+        while ancestor is not None and not (
+                ancestor.name in related or ancestor.name in line):
+            line[ancestor.name] = ancestor
+            ancestor = by_name.get(ancestor.parent_name)
+        if ancestor is not None and ancestor.name in line:
+            cycle = list(line)[list(line).index(ancestor.name):]
             for index, member in enumerate(cycle):
                 errors[member] = _cycle_error(by_name[member], cycle, index)
                 related[member] = by_name[member]

@@ -93,7 +93,7 @@ def runnable(rapp: Rapp, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
 
     >>> from capabilities.discovery import SpecIndex
     >>> from rocon_uri.rapp import rapp_from_string
-    >>> dance = rapp_from_string('{compatibility: "rocon:/pr2", launch: dance.launch}', 'ours/dance')
+    >>> dance = rapp_from_string('{compatibility: "rocon:/pr2", launch: d.launch}', 'ours/dance')
     >>> bool(runnable(dance, 'rocon:/pr2/bob', SpecIndex()))
     True
     >>> print(runnable(dance, 'rocon:/kobuki/bob', SpecIndex()))

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 __all__ = ['main']
 
-VERBS = ('parse', 'check', 'match', 'fields', 'rules', 'platform')
+VERBS = ('parse', 'check', 'match', 'fields', 'rules', 'platform', 'apps', 'specs')
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:

@@ -1,0 +1,171 @@
+"""
+List the apps that a robot can run, and why not the others.
+
+Examples:
+  rocon_uri apps
+  rocon_uri apps --robot rocon:/turtlebot2/bob/noetic/focal --all
+  rocon_uri apps --package-path ~/catkin_ws/src --defaults defaults.yaml
+
+Looks at all rapps and capability specs that the packages below PATH export, and
+takes it that the robot has what the providers among them provide. An app runs if
+the robot's URI is compatible with it and all capabilities that it requires can be
+started. Where several providers implement one, FILE says which to take: a YAML
+mapping from interfaces to providers, on its own or as "defaults".
+
+Exit status: 0 if an app runs; 1 if none does; 2 if the robot, a folder or a file
+was bad, though all else is judged, even for a robot that is not registered
+JSON: {"robot": URI, "apps": [{"name", "display", "description", "compatibility",
+"file", "launch", "runs": BOOL, "virtual": BOOL, "providers": [NAME, ...],
+"reasons": [{"kind", "text", "fields", "fault"}, ...]}, ...],
+"errors": [ERROR, ...]}
+with providers in the order in which to start them, fields as of check, and null
+for what there is not; apps that do not run are only there with --all
+"""
+from __future__ import annotations
+
+from rocon_uri.cli.display import painter, print_json
+from rocon_uri.cli.given import GivenURI
+from rocon_uri.cli.packages import (
+    PackageReport, Packages, add_package_path, escape_unencodable, package_path, printable,
+    shortened)
+from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.platform import (
+    default_robot_name, default_robot_type, generate_platform_rocon_uri)
+from rocon_uri.uri import parse
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from typing import Any, Dict, List, Optional
+    from rocon_uri.runnable import Reason, Verdict
+    from rocon_uri.vocabulary import Vocabulary
+
+__all__ = ['add_arguments', 'main']
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the verb takes."""
+    parser.add_argument('--robot', metavar='URI',
+                        help='what the robot is (default: this machine, as of platform)')
+    add_package_path(parser)
+    parser.add_argument('--all', action='store_true',
+                        help='also the apps that it cannot run, and why')
+    parser.add_argument('--defaults', metavar='FILE',
+                        help='which provider to take where there are several')
+
+
+def main(args: argparse.Namespace) -> int:
+    """Do it, and return the exit status."""
+    escape_unencodable()
+    report = PackageReport(args.json)
+    packages = Packages(package_path(args, report), report)
+    robot = _read_robot(args.robot, packages.vocabulary, report)
+    defaults = _read_defaults(args.defaults, report)
+    if robot is None or defaults is None:
+        return report.status
+    from rocon_uri.rapps import runnable    # here, since it loads YAML
+    verdicts = [runnable(rapp, robot.uri, packages.spec_index, defaults)
+                for rapp in packages.rapps.values()]
+    if args.json:
+        print_json({'robot': robot.as_json(),
+                    'apps': [_as_json(verdict) for verdict in verdicts if verdict or args.all],
+                    'errors': report.errors})
+    else:
+        _show(robot, verdicts, args.all)
+    robot.mention_one_slash()
+    return report.status or (0 if any(verdicts) else 1)
+
+
+def _read_robot(text: Optional[str], vocabulary: Vocabulary,
+                report: PackageReport) -> Optional[GivenURI]:
+    """The robot; one that is not registered is reported, and may run some apps nevertheless."""
+    if text is None:
+        text = generate_platform_rocon_uri(default_robot_type, default_robot_name())
+    try:
+        return GivenURI(parse(text, vocabulary), text)
+    except RoconURIValueError as error:
+        report.bad_uri(error)
+    try:
+        return GivenURI(parse(text, vocabulary.opened()), text)
+    except RoconURIValueError:
+        return None
+
+
+def _read_defaults(path: Optional[str], report: PackageReport) -> Optional[Dict[str, str]]:
+    """The default providers by interface; None if the file is bad, which is reported."""
+    if path is None:
+        return {}
+    from rocon_uri.yaml_source import YamlError, YamlMapping, load_file     # loads YAML
+    try:
+        source = load_file(path)
+        if isinstance(source, YamlMapping) and isinstance(source.get('defaults'), YamlMapping):
+            source = source['defaults']
+        if not isinstance(source, YamlMapping):
+            raise YamlError('expected a mapping from interfaces to providers', path, 1, 1)
+        for key, _, place in source.repeated:
+            raise YamlError('%s is there twice' % quoted(str(key)), path, *place)
+        for interface, provider in source.items():
+            if not isinstance(interface, str) or not isinstance(provider, str):
+                raise YamlError('expected an interface and the name of its provider', path,
+                                *source.key_position(interface))
+        return dict(source)
+    except (OSError, YamlError) as error:
+        report.bad_file(error)
+        return None
+
+
+def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool) -> None:
+    paint = painter()
+    runs = [verdict for verdict in verdicts if verdict]
+    virtual = [verdict for verdict in verdicts if not verdict.rapp.is_implementation]
+    others = [verdict for verdict in verdicts
+              if not verdict and verdict.rapp.is_implementation]
+    width = max((len(printable(verdict.rapp.name)) for verdict in runs + others), default=0)
+    print('%s can run %d of %d apps%s' % (
+        paint(printable(robot.text), 'bold'), len(runs), len(runs) + len(others),
+        ':' if runs else ''))
+    for verdict in runs:
+        print('  ' + _line(verdict, width, 'green'))
+        if show_all and verdict.providers:
+            print('      with %s' % ', '.join(verdict.providers))
+    if show_all and others:
+        print('and cannot run:')
+        for verdict in others:
+            print('  ' + _line(verdict, width, 'red'))
+            for reason in verdict.reasons:
+                _show_reason(reason)
+    if show_all and virtual:
+        print('Virtual, as parents of others: %s'
+              % ', '.join(printable(verdict.rapp.name) for verdict in virtual))
+
+
+def _line(verdict: Verdict, width: int, style: str) -> str:
+    rapp = verdict.rapp
+    about = ': '.join(text for text in (rapp.display, rapp.description) if text)
+    name = printable(rapp.name)
+    return (painter()(name, style) + ' ' * (width - len(name) + 2) + shortened(about)).rstrip()
+
+
+def _show_reason(reason: Reason) -> None:
+    print('      ' + printable(reason.text))
+    if reason.explanation is not None:
+        for line in str(reason.explanation).splitlines()[1:]:   # without the verdict
+            print('        ' + painter()(line, 'faint'))
+
+
+def _as_json(verdict: Verdict) -> Dict[str, Any]:
+    rapp = verdict.rapp
+    return {
+        'name': rapp.name, 'display': rapp.display, 'description': rapp.description,
+        'compatibility': rapp.compatibility, 'file': rapp.path,
+        'launch': rapp.files.get('launch'), 'runs': bool(verdict),
+        'virtual': not rapp.is_implementation, 'providers': list(verdict.providers),
+        'reasons': [{
+            'kind': reason.kind.value, 'text': reason.text,
+            'fields': reason.explanation and [
+                {'field': field.field, 'a': field.a, 'b': field.b,
+                 'compatible': field.is_compatible, 'in_common': field.shared}
+                for field in reason.explanation.fields],
+            'fault': reason.fault and reason.fault.to_dict(),
+        } for reason in verdict.reasons],
+    }

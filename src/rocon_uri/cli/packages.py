@@ -1,0 +1,138 @@
+"""The packages that a verb looks at, what they export, and a report of what is wrong with them."""
+from __future__ import annotations
+
+import os
+import sys
+
+from rocon_uri.cli.given import Report, say
+from rocon_uri.exceptions import quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from typing import Any, Dict, Iterable, List, Optional
+
+__all__ = ['PackageReport', 'Packages', 'add_package_path', 'escape_unencodable', 'package_path',
+           'printable', 'quiet_loggers', 'shortened']
+
+
+def add_package_path(parser: argparse.ArgumentParser) -> None:
+    """Let a verb take ``--package-path``."""
+    parser.add_argument('--package-path', metavar='PATH',
+                        help='folders with packages below them, %s between (default: '
+                        'ROS_PACKAGE_PATH)' % os.pathsep)
+
+
+def printable(text: Any) -> str:
+    """
+    What somebody wrote into a file, fit for a terminal.
+
+    :param text: anything
+    :returns: str of one line without control characters, in which white space is one blank
+
+    >>> printable('Dance\\x1b[31m\\n')
+    'Dance\\\\x1b[31m'
+    """
+    line = ' '.join(str(text).split())
+    return ''.join(c if c.isprintable() else repr(c)[1:-1] for c in line)
+
+
+def shortened(text: str) -> str:
+    """What is left of a description where there is one line for it."""
+    line = printable(text)
+    return line if len(line) <= 100 else line[:97] + '...'
+
+
+class PackageReport(Report):
+    """A report that also takes what is wrong with files that are not lists of URIs."""
+
+    def bad(self, message: str, file: Optional[str] = None, line: Optional[int] = None,
+            suggestions: Iterable[str] = ()) -> None:
+        """
+        Report a fault.
+
+        :param str message: one line
+        :param file: str, where it is, if it is in a file; the message has it, too
+        :param line: int, the line there, from 1
+        :param suggestions: iterable of str, what was probably meant
+        """
+        self.status = 2
+        say(message if file else 'rocon_uri: ' + message)
+        self.errors.append({
+            'message': message, 'uri': None, 'field': None, 'value': None, 'span': None,
+            'suggestions': list(suggestions), 'file': file, 'line': line})
+
+    def bad_file(self, fault: Any) -> None:
+        """
+        Report what discovery or the reading of a file has found.
+
+        :param fault: OSError, or an error with the attributes ``file_name`` and ``line``
+        """
+        if isinstance(fault, OSError):
+            file = os.fsdecode(fault.filename or '')
+            self.bad('%s: %s' % (printable(file), fault.strerror or fault), file)
+        else:
+            self.bad(str(fault), fault.file_name, fault.line)
+
+
+def package_path(args: argparse.Namespace, report: PackageReport,
+                 is_needed: bool = True) -> List[str]:
+    """
+    The folders to look for packages in.
+
+    :param args: those of the verb, which took `add_package_path`
+    :param report: is told of folders that were given and are not there
+    :param bool is_needed: is it reported if none were given?
+    :returns: list of str
+    """
+    text = args.package_path
+    if text is None:
+        text = os.environ.get('ROS_PACKAGE_PATH', '')   # often has folders that are not there
+    folders = [folder for folder in text.split(os.pathsep) if folder]
+    if is_needed and not folders:
+        report.bad('no package path, expected ROS_PACKAGE_PATH or --package-path')
+    if args.package_path is not None:
+        for folder in folders:
+            if not os.path.isdir(folder):
+                report.bad('%s is no folder' % quoted(folder))
+    return folders
+
+
+class Packages:
+    """
+    Packages, and what they export.
+
+    :param paths: iterable of str, folders with packages below them
+    :param PackageReport report: is told what is wrong with them
+
+    - ``by_name``: dict of catkin_pkg packages
+    - ``spec_index``: `capabilities.discovery.SpecIndex`
+    - ``rapps``: dict of `rocon_uri.rapp.Rapp` by name
+    - ``vocabulary``: `rocon_uri.Vocabulary`, with the rules that they export
+    """
+
+    def __init__(self, paths: Iterable[str], report: PackageReport) -> None:
+        # here, since they load catkin_pkg and YAML, and a verb can be asked for help without
+        from capabilities import discovery
+        from rocon_uri.package_rules import vocabulary_from_package_index
+        from rocon_uri.rapps import rapps_from_package_index
+        quiet_loggers()
+        faults: List[Any] = []
+        self.by_name: Dict[str, Any] = discovery.package_index_from_package_path(paths, faults)
+        self.spec_index, spec_faults = discovery.spec_index_from_spec_file_index(
+            discovery.spec_file_index_from_package_index(self.by_name))
+        self.rapps, rapp_faults = rapps_from_package_index(self.by_name)
+        self.vocabulary, rules_faults = vocabulary_from_package_index(self.by_name)
+        for fault in [*faults, *spec_faults, *rapp_faults, *rules_faults]:
+            report.bad_file(fault)
+
+
+def quiet_loggers() -> None:
+    """Say nothing twice: what discovery logs is reported too, or is for the linter to say."""
+    import logging      # discovery has loaded it in any case
+    logging.getLogger('capabilities').setLevel(logging.CRITICAL)
+
+
+def escape_unencodable() -> None:
+    """Print what the terminal's encoding does not have as escapes, instead of failing."""
+    sys.stdout.reconfigure(errors='backslashreplace')   # type: ignore[union-attr]

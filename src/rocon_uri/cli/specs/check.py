@@ -1,0 +1,97 @@
+"""
+Check all that packages export, for continuous integration.
+
+Examples:
+  rocon_uri specs check
+  rocon_uri specs check src
+  rocon_uri specs check . --format github
+
+Looks at the specs, rapps and rules that the packages in and below PATH export,
+and at every .interactions file in them. They may refer to each other and to what
+is on the package path. Prints what it finds as FILE:LINE:COLUMN: SEVERITY: TEXT,
+or as GitHub takes it. An error is what does not work, or not as it says; a
+warning is what works but is probably not what was meant.
+
+Exit status: 0 if there is no error, warnings or not; 1 if there is one; 2 if a
+PATH is no folder or has no package in it, though the others are checked
+JSON: {"findings": [{"file", "line", "column", "severity", "text"}, ...],
+"packages": [NAME, ...], "errors": [ERROR, ...]}, with null for the line and the
+column of what is in no one place
+"""
+from __future__ import annotations
+
+import os
+
+from rocon_uri.cli.display import print_json
+from rocon_uri.cli.given import say
+from rocon_uri.cli.packages import (
+    PackageReport, add_package_path, escape_unencodable, package_path, quiet_loggers)
+from rocon_uri.exceptions import quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from typing import Any, Dict, List, Tuple
+
+__all__ = ['add_arguments', 'main']
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the verb takes."""
+    parser.add_argument('paths', metavar='PATH', nargs='*',
+                        help='a package, or a folder with packages below it (default: all on '
+                        'the package path)')
+    add_package_path(parser)
+    parser.add_argument('--format', choices=('text', 'github'), default='text',
+                        help='github is for the log of a GitHub workflow, which shows each '
+                        'finding beside its line')
+
+
+def main(args: argparse.Namespace) -> int:
+    """Do it, and return the exit status."""
+    # here, since they load catkin_pkg and YAML, and a verb can be asked for help without
+    from capabilities.discovery import package_index_from_package_path
+    from rocon_uri.lint import ERROR, check_package_index
+    escape_unencodable()
+    quiet_loggers()
+    report = PackageReport(args.json)
+    around = package_path(args, report, is_needed=not args.paths)
+    if args.paths:
+        checked, faults = _given_packages(args.paths, report)
+        others = package_index_from_package_path(around)
+    else:
+        faults, others = [], {}
+        checked = package_index_from_package_path(around, faults)
+    findings = check_package_index(checked, others, faults)
+    if args.json:
+        print_json({'findings': [finding.as_json() for finding in findings],
+                    'packages': list(checked), 'errors': report.errors})
+    else:
+        for finding in findings:
+            print(finding.as_github() if args.format == 'github' else finding)
+    errors = sum(finding.severity == ERROR for finding in findings)
+    say('rocon_uri: %s and %s in %s' % (
+        _counted(errors, 'error'), _counted(len(findings) - errors, 'warning'),
+        _counted(len(checked), 'package')))
+    return report.status or (1 if errors else 0)
+
+
+def _given_packages(paths: List[str], report: PackageReport) -> Tuple[Dict[str, Any], List[Any]]:
+    """The packages in some folders, which should have some, and what is wrong with them."""
+    from capabilities.discovery import package_index_from_package_path      # see main
+    packages: Dict[str, Any] = {}
+    faults: List[Any] = []
+    for path in paths:
+        new_faults: List[Any] = []
+        found = package_index_from_package_path([path], new_faults)
+        if not found and not new_faults:
+            report.bad('%s %s' % (quoted(path), 'has no package in it' if os.path.isdir(path)
+                                  else 'is no folder'))
+        packages.update((name, package) for name, package in found.items()
+                        if name not in packages)
+        faults += new_faults
+    return packages, faults
+
+
+def _counted(number: int, what: str) -> str:
+    return '%s %s%s' % (number or 'no', what, '' if number == 1 else 's')

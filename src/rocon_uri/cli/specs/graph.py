@@ -1,0 +1,86 @@
+"""
+Draw what depends on what: interfaces, semantic interfaces, providers and apps.
+
+Examples:
+  rocon_uri specs graph > specs.dot
+  rocon_uri specs graph --output specs.svg
+
+Writes the language of graphviz. For a FILE that ends in .svg or .png, graphviz
+has to be installed. Blue boxes are interfaces, green ones semantic interfaces,
+yellow ellipses providers, the others apps (those that are only parents dashed);
+red is what is named and not there.
+
+Exit status: 0; 2 if the picture could not be made, or a folder or a file was bad,
+though the others are drawn
+JSON: {"nodes": [{"id", "name", "kind"}, ...], "edges": [{"from", "to", "kind",
+"preferred"}, ...], "errors": [ERROR, ...]}, beside the picture if there is a FILE;
+an id is the name, with a # before that of an app
+"""
+from __future__ import annotations
+
+import os
+import subprocess
+
+from rocon_uri.cli.display import print_json
+from rocon_uri.cli.packages import (
+    PackageReport, Packages, add_package_path, escape_unencodable, package_path)
+from rocon_uri.exceptions import quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ['add_arguments', 'main']
+
+_PICTURES = ('.svg', '.png')
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the verb takes."""
+    add_package_path(parser)
+    parser.add_argument('--output', metavar='FILE',
+                        help='a file that ends in .dot, .svg or .png (default: standard output)')
+
+
+def main(args: argparse.Namespace) -> int:
+    """Do it, and return the exit status."""
+    from rocon_uri.spec_graph import dot_text, spec_graph   # here, since the others need it not
+    escape_unencodable()
+    report = PackageReport(args.json)
+    packages = Packages(package_path(args, report), report)
+    graph = spec_graph(packages.spec_index, packages.rapps)
+    if args.output is not None:
+        _write(dot_text(graph) + '\n', args.output, report)
+    elif not args.json:
+        print(dot_text(graph))
+    if args.json:
+        print_json({
+            'nodes': [{'id': identity, 'name': node.name, 'kind': node.kind}
+                      for identity, node in graph.nodes.items()],
+            'edges': [{'from': edge.start, 'to': edge.end, 'kind': edge.kind,
+                       'preferred': edge.preferred} for edge in graph.edges],
+            'errors': report.errors})
+    return report.status
+
+
+def _write(text: str, path: str, report: PackageReport) -> None:
+    extension = os.path.splitext(path)[1].lower()
+    content = text.encode('utf-8', 'backslashreplace')
+    try:
+        if extension in _PICTURES:
+            done = subprocess.run(['dot', '-T' + extension[1:], '-o', os.path.abspath(path)],
+                                  input=content, stderr=subprocess.PIPE)
+            if done.returncode:
+                problem = done.stderr.decode('utf-8', 'replace').strip()
+                report.bad('cannot draw %s: %s' % (
+                    quoted(path), ' '.join(problem.split()) or 'dot failed'))
+        elif extension == '.dot':
+            with open(path, 'wb') as file:
+                file.write(content)
+        else:
+            report.bad('%s ends in none of .dot, .svg and .png' % quoted(path))
+    except FileNotFoundError as error:
+        if error.filename != 'dot':
+            raise
+        report.bad("a picture needs the program 'dot' of graphviz, which is not installed; "
+                   'write a .dot file, or install graphviz')

@@ -1,0 +1,155 @@
+"""
+Show a capability spec and what it takes to run it.
+
+Examples:
+  rocon_uri specs show std_capabilities/DifferentialMobileBase
+  rocon_uri specs show kobuki_capabilities/kobuki_bumper
+
+Of an interface and a semantic interface prints the ROS names, those of the
+latter as its clients see them, and the providers; of a provider what it
+implements, remaps and depends on, and the order in which to start them.
+
+Exit status: 0; 2 if there is no spec NAME, or a folder or a file was bad
+JSON: {"spec": {...}, "spec_type", "file", "resolved": {...},
+"providers": [NAME, ...], "start_order": [NAME, ...], "faults": [TEXT, ...],
+"errors": [ERROR, ...]}; spec and resolved are as in a file of specs, and null is
+for what there is not
+"""
+from __future__ import annotations
+
+from rocon_uri.cli.display import painter, print_json
+from rocon_uri.cli.packages import (
+    PackageReport, Packages, add_package_path, escape_unencodable, package_path, printable)
+from rocon_uri.exceptions import near_misses, quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from typing import Any, Dict, Iterable, List, Optional, Tuple
+    from capabilities.spec_index import SpecIndex
+
+__all__ = ['add_arguments', 'main']
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the verb takes."""
+    parser.add_argument('name', metavar='NAME', help='package/name of a spec')
+    add_package_path(parser)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Do it, and return the exit status."""
+    escape_unencodable()
+    report = PackageReport(args.json)
+    index = Packages(package_path(args, report), report).spec_index
+    spec = index.specs.get(args.name)
+    if spec is None:
+        meant = _meant(args.name, index.names)
+        hint = ' (did you mean %s?)' % ' or '.join(map(quoted, meant)) if meant else ''
+        report.bad('no spec has the name %s%s' % (quoted(args.name), hint), suggestions=meant)
+    shown = Shown(spec, index)
+    if args.json:
+        print_json({
+            'spec': spec and spec.to_dict(), 'spec_type': spec and spec.spec_type,
+            'file': spec and spec.file_name,
+            'resolved': shown.resolved and shown.resolved.to_dict(),
+            'providers': shown.providers, 'start_order': shown.start_order,
+            'faults': shown.faults, 'errors': report.errors})
+    elif spec is not None:
+        _print(shown)
+    return report.status
+
+
+def _meant(name: str, names: List[str]) -> List[str]:
+    """The names that are like this one, as a whole or without the package."""
+    package, _, own_name = name.rpartition('/')
+    near = near_misses(own_name, {other.partition('/')[2] for other in names})
+    alike = [other for own in near for other in names if other.endswith('/' + own)]
+    if alike or any(other.startswith(package + '/') for other in names):
+        return alike[:3]
+    return near_misses(name, names)
+
+
+class Shown:
+    """
+    A spec, and what is to be said of it from looking at the others.
+
+    - ``resolved``: the interface that clients of a semantic interface see, or None
+    - ``providers``: list of str, those of an interface or semantic interface
+    - ``start_order``: list of str, what is to be started for a provider, itself last
+    - ``faults``: list of str, what is in the way of that
+    """
+
+    def __init__(self, spec: Any, index: SpecIndex) -> None:
+        from capabilities.providers import plan_for_provider    # here, since it loads YAML
+        from capabilities.specs.common import InvalidSpec
+        self.spec = spec
+        self.resolved: Any = None
+        self.start_order: List[str] = []
+        self.faults: List[str] = []
+        self.providers = [] if spec is None else index.providers_of(spec.name)
+        spec_type = spec and spec.spec_type
+        if spec_type == 'provider':
+            plan = plan_for_provider(index, spec.name)
+            self.start_order = plan.order
+            self.faults = [str(fault) for fault in plan.faults]
+        elif spec_type == 'semantic_interface':
+            try:
+                self.resolved = spec.resolve(index.interfaces[spec.redefines])
+            except InvalidSpec as error:
+                self.faults = [str(error)]
+
+
+def _print(shown: Shown) -> None:
+    spec, paint = shown.spec, painter()
+    print('%s %s' % (spec.spec_type.replace('_', ' '), paint(spec.name, 'bold')))
+    print('  ' + printable(spec.description))
+    print('  in ' + printable(spec.file_name))
+    if spec.spec_type == 'provider':
+        _print_provider(spec)
+        _print_names('to start, in this order', shown.start_order)
+    else:
+        if spec.spec_type == 'semantic_interface':
+            print('redefines %s' % paint(spec.redefines, 'cyan'))
+        interface = shown.resolved if spec.spec_type == 'semantic_interface' else spec
+        if interface is not None:
+            _print_interface(interface)
+        _print_names('providers', shown.providers)
+    _print_names('faults', map(printable, shown.faults))
+
+
+def _print_provider(spec: Any) -> None:
+    paint = painter()
+    print('implements %s' % paint(spec.implements, 'cyan'))
+    for key in 'launch_file', 'nodelet_manager':
+        if getattr(spec, key) is not None:
+            print('%s %s' % (key, printable(getattr(spec, key))))
+    _print_names('depends on', (
+        dependency.capability_name if dependency.preferred_provider is None
+        else '%s  by %s' % (dependency.capability_name, dependency.preferred_provider)
+        for dependency in spec.dependencies.values()))
+    for kind, new_names in spec.remappings_by_type.items():
+        _print_rows('remaps ' + kind, [(name, '->', new_name)
+                                       for name, new_name in new_names.items()])
+
+
+def _print_interface(interface: Any) -> None:
+    rows: Dict[Tuple[str, Optional[str]], List[Tuple[str, ...]]] = {}
+    for section, name, element, grouping in interface.elements():
+        rows.setdefault((section, grouping), []).append((name, element.type or ''))
+    for (section, grouping), named in rows.items():
+        _print_rows('%s %s' % (grouping, section) if grouping else section, named)
+    _print_names('dynamic_parameters', map(printable, interface.dynamic_parameters))
+
+
+def _print_names(heading: str, names: Iterable[str]) -> None:
+    _print_rows(heading, [(name,) for name in names])
+
+
+def _print_rows(heading: str, rows: List[Tuple[str, ...]]) -> None:
+    if rows:
+        print(painter()(heading, 'bold'))
+    cells = [tuple(map(printable, row)) for row in rows]
+    widths = [max(map(len, column)) for column in zip(*cells)]
+    for row in cells:
+        print('  ' + '  '.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())

@@ -1,0 +1,110 @@
+"""
+What is wrong with the specs, rapps and interactions of packages, for continuous integration.
+
+It goes further than reading them: names, types, the files that they refer to, and whether what they
+name exists.
+
+>>> [str(finding) for finding in check_packages(['examples/workspace'])]
+[]
+"""
+from __future__ import annotations
+
+import os
+
+from capabilities.discovery import package_index_from_package_path
+from capabilities.spec_index import did_you_mean
+from rocon_uri.lint.checked_file import is_inside
+from rocon_uri.lint.finding import ERROR, WARNING, Finding
+from rocon_uri.lint.interactions_files import check_interactions_file, interactions_files
+from rocon_uri.lint.manifest import check_exports
+from rocon_uri.lint.rapp_files import check_rapp
+from rocon_uri.lint.spec_files import check_spec
+from rocon_uri.lint.surroundings import Surroundings
+from rocon_uri.yaml_source import YamlError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Collection, Iterable, List, Mapping
+
+__all__ = ['ERROR', 'Finding', 'WARNING', 'check_package_index', 'check_packages']
+
+
+def check_packages(paths: Iterable[str], package_path: Iterable[str] = ()) -> List[Finding]:
+    """
+    Check all that some packages export, and the ``.interactions`` files in them.
+
+    :param paths: iterable of str, the folders below which the packages are that are checked
+    :param package_path: iterable of str, the folders below which the packages are that they may
+        refer to, beside each other
+    :returns: list of `Finding`, by file and line; files have paths relative to the working
+        directory if they are below it, else absolute ones
+    """
+    faults: List[Exception] = []
+    checked = package_index_from_package_path(paths, faults)
+    return check_package_index(checked, package_index_from_package_path(package_path), faults)
+
+
+def check_package_index(checked: Mapping[str, Any], others: Mapping[str, Any],
+                        faults: Iterable[Exception] = ()) -> List[Finding]:
+    """
+    The same for packages that were found already.
+
+    :param checked: dict of catkin_pkg packages by name, those to check
+    :param others: dict of catkin_pkg packages by name, those that they may refer to
+    :param faults: the errors of `capabilities.discovery.package_index_from_package_path`
+    :returns: list of `Finding`, as `check_packages` returns it
+
+    >>> check_package_index({}, {})
+    []
+    """
+    surroundings = Surroundings({**others, **checked})
+    folders = {name: os.path.dirname(package.filename) for name, package in checked.items()}
+    own_folders = set(folders.values())
+    findings = [_finding(fault) for fault in faults]
+    findings += [_finding(fault) for fault in surroundings.faults
+                 if _is_in_one_of(_path(fault), own_folders)]
+    for name, folder in folders.items():
+        findings += check_exports(checked[name].filename)
+        for path in interactions_files(folder):
+            findings += check_interactions_file(path, folder, surroundings)
+    for path, spec in surroundings.specs():
+        folder = folders.get(spec.name.partition('/')[0], path)
+        if is_inside(path, folder):     # to export what is elsewhere is fault enough
+            findings += check_spec(spec, path, folder, surroundings)
+    for rapp in surroundings.own_rapps.values():
+        folder = folders.get(rapp.package, rapp.path)
+        if is_inside(rapp.path, folder):
+            findings += check_rapp(rapp, folder, surroundings)
+    return _sorted(findings)
+
+
+def _is_in_one_of(path: str, folders: Collection[str]) -> bool:
+    """Is this a file in one of the folders? What is missing is a fault of who names it."""
+    if not os.path.isfile(path):
+        return False
+    folder = os.path.dirname(path)
+    while folder not in folders and folder != os.path.dirname(folder):
+        folder = os.path.dirname(folder)
+    return folder in folders
+
+
+def _path(fault: Any) -> str:
+    return str(fault.filename if isinstance(fault, OSError) else fault.file_name)
+
+
+def _finding(fault: Any) -> Finding:
+    if isinstance(fault, OSError):
+        return Finding(_path(fault), None, None, ERROR,
+                       'cannot be read: %s' % (fault.strerror or fault))
+    text = fault.problem if isinstance(fault, YamlError) else fault.msg
+    return Finding(_path(fault), fault.line, fault.column, ERROR,
+                   text + did_you_mean(getattr(fault, 'suggestions', ())))
+
+
+def _sorted(findings: Iterable[Finding]) -> List[Finding]:
+    """Each finding once, by its place, with the path that is the shortest to read."""
+    here = os.getcwd()
+    shown = {finding: os.path.relpath(finding.file) if is_inside(finding.file, here)
+             else finding.file for finding in findings}
+    return sorted({finding._replace(file=path): None for finding, path in shown.items()},
+                  key=lambda finding: (finding.file, finding.line or 0, finding.column or 0))

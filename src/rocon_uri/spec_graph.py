@@ -1,0 +1,120 @@
+"""
+What depends on what among interfaces, semantic interfaces, providers and apps, as a picture.
+
+>>> from capabilities.spec_index import SpecIndex
+>>> print(dot_text(spec_graph(SpecIndex(), {})).splitlines()[0])
+digraph capabilities {
+"""
+from __future__ import annotations
+
+from collections import namedtuple
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import List, Mapping
+    from capabilities.spec_index import SpecIndex
+    from rocon_uri.rapp import Rapp
+
+__all__ = ['Edge', 'Node', 'SpecGraph', 'dot_text', 'spec_graph']
+
+#: What is drawn: its name (str) and its kind, a key of `_NODE_STYLES`.
+Node = namedtuple('Node', 'name kind')
+
+#: An arrow from one id to another; its kind, a key of `_EDGE_STYLES`, and for a dependency the name
+#: of the preferred provider, None if there is none.
+Edge = namedtuple('Edge', 'start end kind preferred')
+
+#: ``nodes`` is a dict of `Node` by id, which is the name, with a # before that of an app, as in a
+#: rocon URI; ``edges`` a list of `Edge`. What is named and is not there is of the kind 'missing'.
+SpecGraph = namedtuple('SpecGraph', 'nodes edges')
+
+_NODE_STYLES = {
+    'interface': 'shape=box, style=filled, fillcolor="#cfe2f3"',
+    'semantic interface': 'shape=box, style="filled,rounded", fillcolor="#d9ead3"',
+    'provider': 'shape=ellipse, style=filled, fillcolor="#fff2cc"',
+    'app': 'shape=component, style=filled, fillcolor="#ead1dc"',
+    'virtual app': 'shape=component, style="filled,dashed", fillcolor="#f3f3f3"',
+    'missing': 'shape=box, style=dashed, color="#cc0000", fontcolor="#cc0000"',
+}
+_EDGE_STYLES = {
+    'implements': 'arrowhead=empty',
+    'redefines': 'arrowhead=empty, style=dashed',
+    'depends on': 'arrowhead=vee',
+    'requires': 'arrowhead=vee, color="#a64d79"',
+    'inherits from': 'arrowhead=empty, style=dotted, color="#a64d79"',
+}
+
+
+def spec_graph(spec_index: SpecIndex, rapps: Mapping[str, Rapp]) -> SpecGraph:
+    """
+    The graph of all that packages export.
+
+    :param spec_index: `capabilities.discovery.SpecIndex`
+    :param rapps: mapping of `rocon_uri.rapp.Rapp` by name
+    :returns: `SpecGraph`
+
+    >>> from capabilities.spec_index import SpecIndex
+    >>> from rocon_uri.rapp import rapp_from_string
+    >>> dance = rapp_from_string('required_capabilities: [{name: ours/Legs}]', 'ours/dance')
+    >>> sorted(spec_graph(SpecIndex(), {'ours/dance': dance}).nodes.items())
+    [('#ours/dance', Node(name='ours/dance', kind='virtual app')), \
+('ours/Legs', Node(name='ours/Legs', kind='missing'))]
+    """
+    nodes = {name: Node(name, spec.spec_type.replace('_', ' '))
+             for name, spec in spec_index.specs.items()}
+    for name, rapp in rapps.items():
+        nodes['#' + name] = Node(name, 'app' if rapp.is_implementation else 'virtual app')
+    edges: List[Edge] = []
+    for name, semantic in spec_index.semantic_interfaces.items():
+        edges.append(Edge(name, semantic.redefines, 'redefines', None))
+    for name, provider in spec_index.providers.items():
+        edges.append(Edge(name, provider.implements, 'implements', None))
+        edges += [Edge(name, needed.capability_name, 'depends on', needed.preferred_provider)
+                  for needed in provider.dependencies.values()]
+    for name, rapp in rapps.items():
+        if rapp.parent_name is not None:
+            edges.append(Edge('#' + name, '#' + rapp.parent_name, 'inherits from', None))
+        edges += [Edge('#' + name, needed.name, 'requires', None)
+                  for needed in rapp.required_capabilities]
+    for edge in edges:
+        nodes.setdefault(edge.end, Node(edge.end, 'missing'))
+    return SpecGraph(nodes, edges)
+
+
+def dot_text(graph: SpecGraph) -> str:
+    """
+    The graph in the language of graphviz.
+
+    :param SpecGraph graph: what to draw
+    :returns: str, the content of a ``.dot`` file
+
+    >>> print(dot_text(SpecGraph({'ours/Legs': Node('ours/Legs', 'interface')}, [])))
+    digraph capabilities {
+      rankdir=LR;
+      node [fontname="Helvetica", fontsize=11];
+      edge [fontname="Helvetica", fontsize=9];
+      "ours/Legs" [label="Legs\\nours", shape=box, style=filled, fillcolor="#cfe2f3"];
+    }
+    """
+    lines = ['digraph capabilities {', '  rankdir=LR;',
+             '  node [fontname="Helvetica", fontsize=11];',
+             '  edge [fontname="Helvetica", fontsize=9];']
+    for identity, node in graph.nodes.items():
+        package, _, own_name = node.name.rpartition('/')
+        lines.append('  "%s" [label="%s\\n%s", %s];' % (
+            _escaped(identity), _escaped(own_name), _escaped(package), _NODE_STYLES[node.kind]))
+    for edge in graph.edges:
+        label, style = edge.kind, _EDGE_STYLES[edge.kind]
+        if edge.preferred is not None:
+            label += '\\nby %s' % _escaped(edge.preferred)
+            if edge.preferred not in graph.nodes:
+                style += ', fontcolor="#cc0000"'
+        lines.append('  "%s" -> "%s" [label="%s", %s];' % (
+            _escaped(edge.start), _escaped(edge.end), label, style))
+    return '\n'.join(lines + ['}'])
+
+
+def _escaped(name: str) -> str:
+    """A name as it stands between double quotes; what no name has is made visible."""
+    printable = ''.join(c if c.isprintable() else repr(c)[1:-1] for c in name)
+    return printable.replace('\\', '\\\\').replace('"', '\\"')
