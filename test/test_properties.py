@@ -4,6 +4,7 @@ from __future__ import annotations
 import copy
 import itertools
 import pickle
+import re
 import sys
 
 import pytest
@@ -141,11 +142,21 @@ def test_equality_is_of_the_sets_of_alternatives(a, b):
 SMALL = Vocabulary({'hardware_platform': [{'a': ['a1', 'a2']}, 'b'],
                     'application_framework': [{'f': ['f1', 'f2']}],
                     'operating_system': [{'o': ['o1', {'p': ['p1', 'p2']}]}]})
-# Any two of the patterns are told apart by these names, and so is what two have in common.
-NAMES = {'*': {'bob', 'bob7', 'bobx', 'x7', 'alice', 'zed'}, 'bob': {'bob'}, 'alice': {'alice'},
-         'bob*': {'bob', 'bob7', 'bobx'}, '*7': {'bob7', 'x7'}, 'bob.*': {'bob', 'bob7', 'bobx'},
-         '.+': {'bob', 'bob7', 'bobx', 'x7', 'alice', 'zed'}, 'bob7?': {'bob', 'bob7'},
-         'b.*7': {'bob7'}, '[^x]*7': {'bob7'}}
+# One name for each way to be admitted by some patterns and refused by the others.
+PATTERNS = {'*': '.*', 'bob': 'bob', 'alice': 'alice', 'bob*': 'bob.*', '*7': '.*7', '.+': '.+',
+            'bob.*': 'bob.*', 'bob7?': 'bob7?', 'b.*7': 'b.*7', '[^x]*7': '[^x]*7'}
+
+
+def names_of_patterns():
+    candidates = ['alice', *(first + ''.join(more) for length in range(5) for first in 'box'
+                             for more in itertools.product('box7', repeat=length))]
+    matches = [re.compile(expression).fullmatch for expression in PATTERNS.values()]
+    told_apart = {tuple(bool(match(name)) for match in matches): name for name in candidates}
+    return {pattern: {name for name in told_apart.values() if match(name)}
+            for pattern, match in zip(PATTERNS, matches)}
+
+
+NAMES = names_of_patterns()
 CONCERTS = {'': {'north', 'south', 'others'}, 'north': {'north'}, 'south': {'south'}}
 
 
