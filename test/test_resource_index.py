@@ -4,12 +4,12 @@ import pickle
 from collections.abc import MutableMapping
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
-from rocon_uri import PatternTooComplex, RoconURI, RoconURIValueError, Vocabulary, is_compatible, parse
-from rocon_uri.resource_index import ResourceIndex
+from rocon_uri import (PatternTooComplex, ResourceIndex, RoconURI, RoconURIValueError, Vocabulary,
+                       is_compatible, parse)
 from rocon_uri.vocabulary import complete
 
 FLEET = ['rocon:/pr2/bob/noetic/focal', 'rocon:/kobuki/bob_1/noetic', 'rocon:/pr2/bob_2/indigo',
@@ -120,6 +120,25 @@ def test_a_copy_is_another_index(fleet):
         assert other.count('rocon:/*/bob*') == fleet.count('rocon:/*/bob*') - 1
 
 
+def test_names_are_found_after_every_change():
+    kept = ['rocon:/pr2/%s#%s' % (name, app)
+            for name in ('bob', 'bob_', 'bob_1', 'bob_z', 'bob_zz9', 'bo', 'az', 'za', 'Z_1', 'zz_9')
+            for app in ('one', 'two', 'three')]
+    requests = ['rocon:/pr2/' + name for name in ('bob', 'bob_z', 'bob_*', '*_1', '*9', '*z*', 'z*',
+                                                  'b.*[1z]', '.*[_o]', 'zz_[0-9]')]
+    index = ResourceIndex()
+
+    def check():
+        for request in requests:
+            assert list(index.find(request)) == [uri for uri in index if is_compatible(uri, request)]
+    for uri in kept:
+        index.add(uri)
+        check()
+    for uri in sorted(kept, key=lambda text: text[::-1]):
+        index.discard(uri)
+        check()
+
+
 class TestUndecided:
     """Two patterns that take too much work to compare."""
 
@@ -173,8 +192,9 @@ class TestVocabularies:
         index = ResourceIndex([parse('rocon:/pr2/bob', self.ours)])
         index.add('rocon:/pr2/bob')
         assert len(index) == index.count('rocon:/pr2') == 1
+        index.add('rocon:/pr2/al')
         index.discard('rocon:/pr2/bob')
-        assert not index and not index.any('rocon:/')
+        assert list(index) == list(index.find('rocon:/')) == [parse('rocon:/pr2/al')]
 
     def test_anything_at_all_meets_what_is_not_registered(self):
         unknown = parse('rocon:/our_robot/bob', Vocabulary.open())
@@ -189,8 +209,9 @@ class TestVocabularies:
         index = ResourceIndex([parse('rocon:/their_robot/bob', theirs)])
         assert index.count('rocon:/') == 1
         newest = Vocabulary({'hardware_platform': ['newest']})
-        with pytest.raises(RoconURIValueError, match='their_robot'):
-            index.count(parse('rocon:/newest', newest))
+        for request in (parse('rocon:/newest', newest), parse('rocon:/*/bob', newest)):
+            with pytest.raises(RoconURIValueError, match='their_robot'):
+                index.count(request)
 
 
 PLATFORMS = ['*', 'pr2', 'kobuki', 'pr2|kobuki', 'kobuki|pr2', 'robot', 'phone|tablet', 'galaxy',
@@ -265,6 +286,7 @@ class OfSeveralVocabularies(IndexAndLoop):
 
 
 TestIndexAndLoop = IndexAndLoop.TestCase
-TestIndexAndLoop.settings = settings(max_examples=50, stateful_step_count=40, deadline=None)
+TestIndexAndLoop.settings = settings(max_examples=25, stateful_step_count=40, deadline=None,
+                                      suppress_health_check=[HealthCheck.too_slow])
 TestOfSeveralVocabularies = OfSeveralVocabularies.TestCase
 TestOfSeveralVocabularies.settings = TestIndexAndLoop.settings
