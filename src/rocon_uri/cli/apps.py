@@ -162,10 +162,15 @@ def _as_json(verdict: Verdict) -> Dict[str, Any]:
         'virtual': not rapp.is_implementation, 'providers': list(verdict.providers),
         'reasons': [{
             'kind': reason.kind.value, 'text': reason.text,
-            'fields': reason.explanation and [
-                {'field': field.field, 'a': field.a, 'b': field.b,
-                 'compatible': field.is_compatible, 'in_common': field.shared}
-                for field in reason.explanation.fields],
-            'fault': reason.fault and reason.fault.to_dict(),
+            'fields': _fields(reason),
+            'fault': None if reason.fault is None else reason.fault.to_dict(),
         } for reason in verdict.reasons],
     }
+
+
+def _fields(reason: Reason) -> Optional[List[Dict[str, Any]]]:
+    if reason.explanation is None:
+        return None
+    return [{'field': field.field, 'a': field.a, 'b': field.b,
+             'compatible': field.is_compatible, 'in_common': field.shared}
+            for field in reason.explanation.fields]

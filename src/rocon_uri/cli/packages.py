@@ -130,7 +130,9 @@ class Packages:
 def quiet_loggers() -> None:
     """Say nothing twice: what discovery logs is reported too, or is for the linter to say."""
     import logging      # discovery has loaded it in any case
-    logging.getLogger('capabilities').setLevel(logging.CRITICAL)
+    logger = logging.getLogger('capabilities')
+    if not logger.handlers:
+        logger.addHandler(logging.NullHandler())
 
 
 def escape_unencodable() -> None:

@@ -68,12 +68,12 @@ def check_package_index(checked: Mapping[str, Any], others: Mapping[str, Any],
         for path in interactions_files(folder):
             findings += check_interactions_file(path, folder, surroundings)
     for path, spec in surroundings.specs():
-        folder = folders.get(spec.name.partition('/')[0], path)
-        if is_inside(path, folder):     # to export what is elsewhere is fault enough
+        folder = folders.get(spec.name.partition('/')[0])
+        if folder and is_inside(path, folder):      # to export what is elsewhere is fault enough
             findings += check_spec(spec, path, folder, surroundings)
     for rapp in surroundings.own_rapps.values():
-        folder = folders.get(rapp.package, rapp.path)
-        if is_inside(rapp.path, folder):
+        folder = folders.get(rapp.package)
+        if folder and is_inside(rapp.path, folder):
             findings += check_rapp(rapp, folder, surroundings)
     return _sorted(findings)
 

@@ -28,7 +28,7 @@ _split_lines = re.compile('\r\n|[\r\n\x85\u2028\u2029]').split      # as YAML co
 
 def is_inside(path: str, folder: str) -> bool:
     """
-    Is a path one of something in a folder, by its letter?
+    Is a path one of a folder or of something in it, by its letter?
 
     Symbolic links are not followed: the devel space of a package may consist of them.
 
@@ -39,7 +39,8 @@ def is_inside(path: str, folder: str) -> bool:
     >>> is_inside('ours/launch/../dance.launch', 'ours'), is_inside('ours/../theirs', 'ours')
     (True, False)
     """
-    return os.path.normpath(path).startswith(os.path.join(os.path.normpath(folder), ''))
+    return os.path.join(os.path.normpath(path), '').startswith(
+        os.path.join(os.path.normpath(folder), ''))
 
 
 class CheckedFile:

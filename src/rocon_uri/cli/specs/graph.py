@@ -66,21 +66,26 @@ def main(args: argparse.Namespace) -> int:
 def _write(text: str, path: str, report: PackageReport) -> None:
     extension = os.path.splitext(path)[1].lower()
     content = text.encode('utf-8', 'backslashreplace')
-    try:
-        if extension in _PICTURES:
-            done = subprocess.run(['dot', '-T' + extension[1:], '-o', os.path.abspath(path)],
-                                  input=content, stderr=subprocess.PIPE)
-            if done.returncode:
-                problem = done.stderr.decode('utf-8', 'replace').strip()
-                report.bad('cannot draw %s: %s' % (
-                    quoted(path), ' '.join(problem.split()) or 'dot failed'))
-        elif extension == '.dot':
+    if extension in _PICTURES:
+        _draw(content, extension[1:], path, report)
+    elif extension == '.dot':
+        try:
             with open(path, 'wb') as file:
                 file.write(content)
-        else:
-            report.bad('%s ends in none of .dot, .svg and .png' % quoted(path))
-    except FileNotFoundError as error:
-        if error.filename != 'dot':
-            raise
+        except OSError as error:
+            report.bad('cannot write %s: %s' % (quoted(path), error.strerror))
+    else:
+        report.bad('%s ends in none of .dot, .svg and .png' % quoted(path))
+
+
+def _draw(content: bytes, picture_format: str, path: str, report: PackageReport) -> None:
+    command = ['dot', '-T' + picture_format, '-o', os.path.abspath(path)]
+    try:
+        done = subprocess.run(command, input=content, stderr=subprocess.PIPE)
+    except FileNotFoundError:
         report.bad("a picture needs the program 'dot' of graphviz, which is not installed; "
                    'write a .dot file, or install graphviz')
+        return
+    if done.returncode:
+        problem = ' '.join(done.stderr.decode('utf-8', 'replace').split())
+        report.bad('cannot draw %s: %s' % (quoted(path), problem or 'dot has failed'))

@@ -126,7 +126,7 @@ def _print_provider(spec: Any) -> None:
             print('%s %s' % (key, printable(getattr(spec, key))))
     _print_names('depends on', (
         dependency.capability_name if dependency.preferred_provider is None
-        else '%s  by %s' % (dependency.capability_name, dependency.preferred_provider)
+        else '%s by %s' % (dependency.capability_name, dependency.preferred_provider)
         for dependency in spec.dependencies.values()))
     for kind, new_names in spec.remappings_by_type.items():
         _print_rows('remaps ' + kind, [(name, '->', new_name)

@@ -1,0 +1,208 @@
+"""The verb apps: what a robot can run, and why not the others."""
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+from made_packages import make_package
+
+from rocon_uri.cli import main
+
+EXAMPLES = Path(__file__).resolve().parents[1] / 'examples' / 'workspace'
+CORPUS = os.environ.get('ROCON_URI_CORPUS')
+needs_corpus = pytest.mark.skipif(not CORPUS, reason='ROCON_URI_CORPUS is not set')
+ROBOT = 'rocon:/turtlebot2/bob/noetic/focal'
+
+
+@pytest.fixture(autouse=True)
+def no_packages_around(monkeypatch):
+    monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)
+
+
+@pytest.fixture
+def apps(capsys):
+    """Run the verb, and return its status, output lines and errors."""
+    def run(*arguments):
+        status = main(['apps', *map(str, arguments)])
+        out, err = capsys.readouterr()
+        return status, out.splitlines(), err
+    return run
+
+
+@pytest.fixture
+def apps_json(capsys):
+    """Run the verb, and return its status and the object."""
+    def run(*arguments):
+        status = main(['apps', '--json', *map(str, arguments)])
+        return status, json.loads(capsys.readouterr().out)
+    return run
+
+
+def dance(workspace, text='compatibility: rocon:/kobuki\nlaunch: dance.launch\n', name='ours'):
+    return make_package(workspace, name, [('rocon_app', 'dance.rapp')], dance_rapp=text)
+
+
+def test_what_runs_is_listed_and_nothing_else(apps):
+    assert apps('--robot', ROBOT, '--package-path', EXAMPLES) == (0, [
+        ROBOT + ' can run 2 of 6 apps:',
+        '  cafe_rapps/patrol         Patrol: Looks at every table and says which ones are dirty',
+        '  cafe_rapps/radio          Radio: Plays music'], '')
+
+
+def test_all_says_what_does_not_run_and_why(apps):
+    status, lines, _ = apps('--robot', ROBOT, '--package-path', EXAMPLES, '--all')
+    text = '\n'.join(lines)
+    assert status == 0
+    assert '      with cafe_capabilities/turtlebot_base, cafe_capabilities/front_camera' in lines
+    assert lines[4] == 'and cannot run:'
+    for reason in (
+            "      'rocon:/cafe_cart' does not include this robot: hardware_platform is turtlebot2",
+            "      capability 'cafe_capabilities/Speech': several providers implement it",
+            "' depends on 'cafe_capabilities/Lift': no provider implements it"):
+        assert reason in text
+    assert '        x  hardware_platform      cafe_cart  turtlebot2  nothing' in lines
+    assert lines[-1] == 'Virtual, as parents of others: cafe_rapps/round'
+
+
+def test_defaults_choose_among_providers(apps, tmp_path):
+    for defaults in EXAMPLES / 'defaults.yaml', tmp_path / 'plain.yaml':
+        if defaults.parent == tmp_path:
+            defaults.write_text('cafe_capabilities/Speech: cafe_capabilities/espeak')
+        status, lines, _ = apps('--robot', ROBOT, '--package-path', EXAMPLES,
+                                '--defaults', defaults)
+        assert status == 0 and 'cafe_rapps/greet ' in '\n'.join(lines)
+
+
+@pytest.mark.parametrize('content, error', [
+    (None, 'No such file or directory'), ('[', 'did not find expected node content'),
+    ('- a', '1:1: expected a mapping from interfaces to providers'),
+    ('a: 7', '1:1: expected an interface and the name of its provider'),
+    ('a: b\na: c', "2:1: 'a' is there twice")])
+def test_bad_defaults_are_an_error(apps, tmp_path, content, error):
+    path = tmp_path / 'defaults.yaml'
+    if content is not None:
+        path.write_text(content)
+    status, lines, err = apps('--robot', ROBOT, '--package-path', EXAMPLES, '--defaults', path)
+    assert (status, lines) == (2, []) and error in err and str(path) in err
+
+
+def test_a_robot_that_another_package_registers_runs_its_apps(apps):
+    status, lines, err = apps('--robot', 'rocon:/cafe_cart/trolley', '--package-path', EXAMPLES)
+    assert (status, err) == (0, '') and '  cafe_cart/carry ' in '\n'.join(lines)
+
+
+def test_nothing_that_runs_is_status_1(apps, tmp_path):
+    dance(tmp_path)
+    assert apps('--robot', ROBOT, '--package-path', tmp_path) == (
+        1, [ROBOT + ' can run 0 of 1 apps'], '')
+
+
+def test_the_package_path_is_that_of_ros_and_the_robot_this_machine(apps, tmp_path, monkeypatch):
+    dance(tmp_path / 'a', 'compatibility: rocon:/pc\nlaunch: dance.launch')
+    dance(tmp_path / 'b', name='theirs')
+    monkeypatch.setenv('ROS_PACKAGE_PATH', os.pathsep.join(
+        [str(tmp_path / 'a'), str(tmp_path / 'not_there'), str(tmp_path / 'b')]))
+    status, lines, err = apps()
+    assert (status, err) == (0, '')
+    assert lines[0].startswith('rocon:/pc/') and lines[0].endswith(' can run 1 of 2 apps:')
+    assert lines[1:] == ['  ours/dance']
+
+
+def test_without_any_package_path_it_says_what_is_needed(apps):
+    assert apps('--robot', ROBOT)[::2] == (
+        2, 'rocon_uri: no package path, expected ROS_PACKAGE_PATH or --package-path\n')
+
+
+def test_a_folder_that_is_not_there_is_an_error_and_hides_no_other(apps, tmp_path):
+    path = '%s%s%s' % (tmp_path / 'gone', os.pathsep, EXAMPLES)
+    status, lines, err = apps('--robot', ROBOT, '--package-path', path)
+    assert status == 2 and len(lines) == 3 and "gone' is no folder" in err
+
+
+def test_a_bad_robot_is_an_error(apps):
+    status, lines, err = apps('--robot', 'rocon:/turtlebot2/3bob', '--package-path', EXAMPLES)
+    assert (status, lines) == (2, []) and "name '3bob'" in err
+
+
+def test_a_robot_that_is_not_registered_is_an_error_and_gets_what_runs_anywhere(apps):
+    status, lines, err = apps('--robot', 'rocon:/turtelbot2/bob', '--package-path', EXAMPLES)
+    assert status == 2 and "did you mean 'turtlebot2'" in err
+    assert lines == ['rocon:/turtelbot2/bob can run 1 of 6 apps:',
+                     '  cafe_rapps/radio          Radio: Plays music']
+
+
+def test_a_robot_with_one_slash_too_many_is_mentioned(apps):
+    status, _, err = apps('--robot', 'rocon://turtlebot2/bob', '--package-path', EXAMPLES)
+    assert status == 0 and "is read as 'rocon:/turtlebot2/bob'" in err
+
+
+def test_what_is_wrong_with_one_file_is_said_once_and_hides_no_other(apps, tmp_path):
+    bad = dance(tmp_path, 'launch: 7', 'bad')
+    (make_package(tmp_path, 'worse') / 'package.xml').write_text('<package>')
+    make_package(tmp_path, 'specs', [('capability_provider', 'p.yaml')], p_yaml='[')
+    dance(tmp_path)
+    status, lines, err = apps('--robot', 'rocon:/kobuki/bob', '--package-path', tmp_path)
+    assert status == 2 and lines[1:] == ['  ours/dance']
+    assert err.count(str(tmp_path)) == 3 and err.count('\n') == 3
+    assert '%s:1:9: launch is 7, expected text' % (bad / 'dance.rapp') in err
+
+
+def test_control_characters_of_files_do_not_reach_the_terminal(apps, tmp_path):
+    dance(tmp_path, '{compatibility: "rocon:/", launch: d.launch, display: "\\e[31mA\\nB\\u202e"}')
+    status, lines, _ = apps('--robot', ROBOT, '--package-path', tmp_path)
+    assert (status, lines[1:]) == (0, ['  ours/dance  \\x1b[31mA B\\u202e'])
+
+
+def test_a_file_name_that_is_no_text_is_no_traceback(apps, tmp_path):
+    folder = make_package(tmp_path, 'ours', [('rocon_app', 'caf\u00e9.rapp')])
+    (folder / 'caf\u00e9.rapp').write_text('{compatibility: "rocon:/", launch: d.launch}')
+    os.rename(os.fsencode(str(tmp_path)) + b'/ours', os.fsencode(str(tmp_path)) + b'/our\xff')
+    status, lines, _ = apps('--robot', ROBOT, '--package-path', tmp_path, '--all')
+    assert (status, lines[1:]) == (0, ['  ours/caf\u00e9'])
+
+
+def test_json_has_what_runs_and_with_all_the_reasons(apps_json):
+    status, answer = apps_json('--robot', ROBOT, '--package-path', EXAMPLES)
+    assert status == 0 and answer['errors'] == []
+    assert answer['robot']['uri'] == ROBOT
+    assert [app['name'] for app in answer['apps']] == ['cafe_rapps/patrol', 'cafe_rapps/radio']
+    patrol = answer['apps'][0]
+    assert patrol['runs'] and not patrol['virtual'] and patrol['reasons'] == []
+    assert patrol['providers'] == ['cafe_capabilities/turtlebot_base',
+                                   'cafe_capabilities/front_camera']
+    assert patrol['display'] == 'Patrol' and patrol['launch'].endswith('/patrol/patrol.launch')
+
+    status, answer = apps_json('--robot', ROBOT, '--package-path', EXAMPLES, '--all')
+    reasons = {app['name']: app['reasons'] for app in answer['apps']}
+    assert len(reasons) == 7
+    assert [reason['kind'] for reason in reasons['cafe_rapps/serve']] == ['dependency']
+    assert reasons['cafe_rapps/serve'][0]['fault']['capability'] == 'cafe_capabilities/Lift'
+    assert reasons['cafe_rapps/greet'][0]['fault']['kind'] == 'ambiguous'
+    (platform,) = reasons['cafe_cart/carry']
+    assert platform['kind'] == 'platform' and platform['fault'] is None
+    assert platform['fields'][0] == {
+        'field': 'hardware_platform', 'a': 'cafe_cart', 'b': 'turtlebot2', 'compatible': False,
+        'in_common': ''}
+    assert [app['name'] for app in answer['apps'] if app['virtual']] == ['cafe_rapps/round']
+
+
+def test_json_has_the_errors(apps_json, tmp_path):
+    dance(tmp_path, 'launch: 7')
+    status, answer = apps_json('--robot', 'rocon:/zork', '--package-path', tmp_path)
+    assert status == 2 and answer['apps'] == []
+    assert [(error['field'], error['line']) for error in answer['errors']] == [
+        (None, 1), ('hardware_platform', None)]
+
+
+@needs_corpus
+def test_the_corpus_on_a_kobuki(apps):
+    defaults = Path(CORPUS) / 'kobuki_capabilities/param/defaults_kobuki_capabilities.yaml'
+    status, lines, err = apps('--robot', 'rocon:/kobuki/bob/indigo/trusty', '--package-path',
+                              CORPUS, '--defaults', defaults)
+    assert (status, err) == (0, '')
+    assert [line.split()[0] for line in lines[1:]] == [
+        'kobuki_rapps/auto_docking', 'kobuki_rapps/random_walker', 'rocon_apps/listener',
+        'rocon_apps/talker', 'rocon_apps/lion_chirp', 'rocon_apps/angry_cat_chirp',
+        'rocon_apps/meow_chirp', 'rocon_apps/moo_chirp']

@@ -1,0 +1,280 @@
+"""The verb specs: list, show, check and graph."""
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from made_packages import make_package
+
+from rocon_uri.cli import main
+from rocon_uri.spec_graph import Edge, Node, SpecGraph, dot_text
+
+EXAMPLES = Path(__file__).resolve().parents[1] / 'examples' / 'workspace'
+CORPUS = os.environ.get('ROCON_URI_CORPUS')
+needs_corpus = pytest.mark.skipif(not CORPUS, reason='ROCON_URI_CORPUS is not set')
+needs_dot = pytest.mark.skipif(not shutil.which('dot'), reason='graphviz is not installed')
+
+
+@pytest.fixture(autouse=True)
+def no_packages_around(monkeypatch):
+    monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)
+
+
+@pytest.fixture
+def specs(capsys):
+    """Run the verb, and return its status, output and errors."""
+    def run(*arguments):
+        try:
+            status = main(['specs', *map(str, arguments)])
+        except SystemExit as stopped:
+            status = stopped.code
+        out, err = capsys.readouterr()
+        return status, out, err
+    return run
+
+
+def bad_package(workspace, warning_only=False):
+    text = 'colour: red\n' + ('' if warning_only else 'icon: ../../x.png\n')
+    return make_package(workspace, 'bad', [('rocon_app', 'dance.rapp')], dance_rapp=text)
+
+
+# The verb itself
+
+def test_without_a_verb_of_its_own_it_says_how_to_use_it(specs):
+    status, out, err = specs()
+    assert status == 2 and out == '' and err.startswith('usage: rocon_uri specs')
+
+
+@pytest.mark.parametrize('verb', ['list', 'show', 'check', 'graph'])
+def test_each_has_help_that_fits(specs, verb):
+    status, out, _ = specs(verb, '--help')
+    assert status == 0
+    assert 'Exit status: ' in out and 'JSON: ' in out and '--json' in out
+    assert '  rocon_uri specs ' + verb in out
+    assert max(map(len, out.splitlines())) <= 84
+
+
+@pytest.mark.parametrize('arguments', [('list', '--json'), ('--json', 'list')])
+def test_json_is_asked_for_before_or_after_the_verb(specs, arguments):
+    _, out, _ = specs(*arguments, '--package-path', EXAMPLES)
+    assert json.loads(out)['errors'] == []
+
+
+@pytest.mark.parametrize('arguments', [('list',), ('show', 'a/b'), ('check',), ('graph',)])
+def test_all_need_a_package_path(specs, arguments):
+    status, _, err = specs(*arguments)
+    assert status == 2 and 'expected ROS_PACKAGE_PATH or --package-path' in err
+
+
+# list
+
+def test_list_has_all_specs_by_kind(specs):
+    status, out, err = specs('list', '--package-path', EXAMPLES)
+    lines = out.splitlines()
+    assert (status, err) == (0, '') and len(lines) == 14
+    assert lines[:2] == ['interfaces', '  cafe_capabilities/MobileBase      A base that drives']
+    assert lines[6:8] == ['semantic interfaces',
+                          '  cafe_capabilities/FrontCamera     redefines cafe_capabilities/Camera']
+    assert lines[8] == 'providers'
+
+
+@needs_corpus
+def test_list_of_the_corpus(specs):
+    status, out, err = specs('list', '--json', '--package-path', CORPUS)
+    kinds = [spec['spec_type'] for spec in json.loads(out)['specs']]
+    assert (status, err) == (0, '')
+    assert [kinds.count(kind) for kind in ('interface', 'semantic_interface', 'provider')] == [
+        13, 2, 15]
+
+
+# show
+
+def test_show_of_a_semantic_interface_is_what_its_clients_see(specs):
+    status, out, _ = specs('show', 'cafe_capabilities/FrontCamera', '--package-path', EXAMPLES)
+    assert status == 0
+    assert out.splitlines()[3:] == [
+        'redefines cafe_capabilities/Camera', 'provides topics',
+        '  front/camera/image_raw    sensor_msgs/Image',
+        '  front/camera/camera_info  sensor_msgs/CameraInfo', 'provides services',
+        '  front/camera/set_camera_info  sensor_msgs/SetCameraInfo', 'providers',
+        '  cafe_capabilities/front_camera']
+
+
+def test_show_of_a_provider_has_what_starts_before_it(specs):
+    status, out, _ = specs('show', 'cafe_capabilities/front_camera', '--package-path', EXAMPLES)
+    assert status == 0
+    assert out.splitlines()[3:] == [
+        'implements cafe_capabilities/FrontCamera', 'launch_file launch/front_camera.launch',
+        'depends on', '  cafe_capabilities/MobileBase by cafe_capabilities/turtlebot_base',
+        'to start, in this order', '  cafe_capabilities/turtlebot_base',
+        '  cafe_capabilities/front_camera']
+
+
+def test_show_of_a_provider_that_cannot_start_has_the_faults(specs):
+    _, out, _ = specs('show', 'cafe_capabilities/tray_scale', '--package-path', EXAMPLES)
+    assert out.endswith("faults\n  provider 'cafe_capabilities/tray_scale' depends on "
+                        "'cafe_capabilities/Lift': no provider implements it\n")
+
+
+@pytest.mark.parametrize('name, meant', [
+    ('cafe_capabilities/MobleBase', "(did you mean 'cafe_capabilities/MobileBase'?)"),
+    ('MobileBase', "(did you mean 'cafe_capabilities/MobileBase'?)"),
+    ('cafe_capabilties/MobileBase', "(did you mean 'cafe_capabilities/MobileBase'?)"),
+    ('cafe_capabilities/zzz', "the name 'cafe_capabilities/zzz'\n"), ('', "the name ''\n"),
+    ('a' * 10000, "...'\n")])
+def test_show_of_an_unknown_name_says_what_was_meant(specs, name, meant):
+    status, out, err = specs('show', name, '--package-path', EXAMPLES)
+    assert (status, out) == (2, '') and meant in err
+
+
+def test_show_as_json(specs):
+    status, out, _ = specs('show', '--json', 'cafe_capabilities/FrontCamera', '--package-path',
+                           EXAMPLES)
+    answer = json.loads(out)
+    assert status == 0 and answer['spec_type'] == 'semantic_interface'
+    assert answer['spec']['redefines'] == 'cafe_capabilities/Camera'
+    assert 'front/camera/image_raw' in answer['resolved']['interface']['topics']['provides']
+    assert answer['providers'] == ['cafe_capabilities/front_camera']
+    status, out, _ = specs('show', '--json', 'cafe_capabilities/Camra', '--package-path', EXAMPLES)
+    answer = json.loads(out)
+    assert status == 2 and answer['spec'] is None
+    assert answer['errors'][0]['suggestions'] == ['cafe_capabilities/Camera']
+
+
+# check
+
+def test_check_of_what_is_right(specs):
+    assert specs('check', EXAMPLES) == (
+        0, '', 'rocon_uri: no errors and no warnings in 3 packages\n')
+
+
+@pytest.mark.parametrize('warning_only, status, summary', [
+    (True, 0, 'no errors and 1 warning in 1 package'),
+    (False, 1, '1 error and 1 warning in 1 package')])
+def test_check_ends_with_1_for_errors_not_for_warnings(specs, tmp_path, monkeypatch, warning_only,
+                                                       status, summary):
+    bad_package(tmp_path, warning_only)
+    monkeypatch.chdir(tmp_path)
+    found_status, out, err = specs('check', '.')
+    assert (found_status, err) == (status, 'rocon_uri: %s\n' % summary)
+    assert out.splitlines()[0] == "bad/dance.rapp:1:1: warning: unknown key 'colour' in a rapp"
+
+
+def test_check_without_a_path_checks_the_package_path(specs, tmp_path, monkeypatch):
+    bad_package(tmp_path)
+    assert specs('check', '--package-path', tmp_path)[0] == 1
+    monkeypatch.setenv('ROS_PACKAGE_PATH', str(tmp_path))
+    assert specs('check')[0] == 1
+
+
+def test_check_of_a_path_takes_the_package_path_for_what_is_around(specs, monkeypatch):
+    assert specs('check', EXAMPLES / 'cafe_rapps')[0] == 1
+    monkeypatch.setenv('ROS_PACKAGE_PATH', str(EXAMPLES))
+    assert specs('check', EXAMPLES / 'cafe_rapps') == (
+        0, '', 'rocon_uri: no errors and no warnings in 1 package\n')
+
+
+@pytest.mark.parametrize('name, problem', [
+    ('gone', 'is no folder'), ('empty', 'has no package in it'), ('file', 'is no folder')])
+def test_check_of_a_bad_path_is_2_whatever_else_was_found(specs, tmp_path, name, problem):
+    (tmp_path / 'empty').mkdir()
+    (tmp_path / 'file').write_text('')
+    bad_package(tmp_path / 'good')
+    status, out, err = specs('check', tmp_path / name, tmp_path / 'good')
+    assert status == 2 and "%s' %s" % (name, problem) in err and out.count('\n') == 2
+
+
+def test_check_as_json(specs, tmp_path, monkeypatch):
+    bad_package(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    status, out, _ = specs('check', '.', '--json')
+    answer = json.loads(out)
+    assert status == 1 and answer['packages'] == ['bad'] and answer['errors'] == []
+    assert answer['findings'][1] == {
+        'file': 'bad/dance.rapp', 'line': 2, 'column': 7, 'severity': 'error',
+        'text': "icon '../../x.png' is outside the package"}
+
+
+def test_check_for_github(specs, tmp_path, monkeypatch):
+    bad_package(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    status, out, _ = specs('check', '.', '--format', 'github')
+    assert status == 1
+    assert out.splitlines()[1] == ('::error file=bad/dance.rapp,line=2,col=7'
+                                   "::icon '../../x.png' is outside the package")
+
+
+@needs_corpus
+def test_check_of_the_corpus_finds_errors(specs):
+    status, out, err = specs('check', CORPUS)
+    assert status == 1 and err.endswith(' in 6 packages\n')
+    assert all(line.count(': error: ') + line.count(': warning: ') == 1
+               for line in out.splitlines())
+
+
+# graph
+
+def test_graph_has_a_node_for_each_and_an_edge_for_each_relation(specs):
+    _, out, _ = specs('graph', '--json', '--package-path', EXAMPLES)
+    answer = json.loads(out)
+    kinds = {node['id']: node['kind'] for node in answer['nodes']}
+    edges = {(edge['from'].rpartition('/')[2], edge['kind'], edge['to'].rpartition('/')[2],
+              edge['preferred']) for edge in answer['edges']}
+    assert kinds['cafe_capabilities/FrontCamera'] == 'semantic interface'
+    assert kinds['cafe_capabilities/Camera'] == 'interface'
+    assert kinds['cafe_capabilities/espeak'] == 'provider'
+    assert (kinds['#cafe_rapps/patrol'], kinds['#cafe_rapps/round']) == ('app', 'virtual app')
+    assert {('FrontCamera', 'redefines', 'Camera', None), ('espeak', 'implements', 'Speech', None),
+            ('front_camera', 'depends on', 'MobileBase', 'cafe_capabilities/turtlebot_base'),
+            ('patrol', 'requires', 'FrontCamera', None),
+            ('patrol', 'inherits from', 'round', None)} <= edges
+    assert 'missing' not in kinds.values()
+
+
+def test_what_is_named_and_not_there_is_in_the_graph(specs, tmp_path):
+    make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp')],
+                 dance_rapp='required_capabilities: [{name: ours/Legs}]')
+    _, out, _ = specs('graph', '--package-path', tmp_path)
+    assert '"ours/Legs" [label="Legs\\nours", shape=box, style=dashed, color="#cc0000"' in out
+    assert '"#ours/dance" -> "ours/Legs" [label="requires"' in out
+
+
+HOSTILE = 'a"];\\x -> "</svg>\n\u202e\udcff<b>&amp;'
+
+
+@needs_dot
+def test_any_name_can_be_drawn():
+    nodes = {'#' + HOSTILE: Node(HOSTILE, 'app'), 'b': Node('b', 'missing')}
+    text = dot_text(SpecGraph(nodes, [Edge('#' + HOSTILE, 'b', 'depends on', HOSTILE)]))
+    done = subprocess.run(['dot', '-Tsvg'], input=text.encode(), stdout=subprocess.PIPE, check=True)
+    groups = [group for group in ElementTree.fromstring(done.stdout).iter()
+              if group.get('class') in ('node', 'edge')]
+    assert [group.get('class') for group in groups] == ['node', 'node', 'edge']
+
+
+@needs_dot
+@pytest.mark.parametrize('name, start', [('x.svg', b'<?xml'), ('x.PNG', b'\x89PNG'),
+                                         ('x.dot', b'digraph')])
+def test_graph_writes_a_picture(specs, tmp_path, name, start):
+    assert specs('graph', '--package-path', EXAMPLES, '--output', tmp_path / name) == (0, '', '')
+    assert (tmp_path / name).read_bytes().startswith(start)
+
+
+@needs_dot
+@pytest.mark.parametrize('name, problem', [
+    ('x.jpg', 'ends in none of .dot, .svg and .png'), ('gone/x.svg', 'cannot draw'),
+    ('gone/x.dot', 'cannot write')])
+def test_graph_that_cannot_be_written_is_an_error(specs, tmp_path, name, problem):
+    status, out, err = specs('graph', '--package-path', EXAMPLES, '--output', tmp_path / name)
+    assert (status, out) == (2, '') and problem in err and err.count('\n') == 1
+
+
+def test_graph_without_graphviz_says_what_to_do(specs, tmp_path, monkeypatch):
+    monkeypatch.setenv('PATH', str(tmp_path))
+    status, _, err = specs('graph', '--package-path', EXAMPLES, '--output', tmp_path / 'x.svg')
+    assert status == 2 and 'install graphviz' in err

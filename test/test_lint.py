@@ -1,0 +1,505 @@
+"""What the linter finds in packages, and where."""
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from made_packages import make_package
+
+from rocon_uri.exceptions import quoted
+from rocon_uri.lint import ERROR, WARNING, Finding, check_packages
+
+ROOT = Path(__file__).resolve().parents[1]
+CORPUS = os.environ.get('ROCON_URI_CORPUS')
+needs_corpus = pytest.mark.skipif(not CORPUS, reason='ROCON_URI_CORPUS is not set')
+
+CAMERA = '''\
+name: Camera
+spec_version: 1
+spec_type: interface
+interface:
+  topics:
+    provides:
+      image: {type: sensor_msgs/Image}
+    requires:
+      /flash: {type: std_msgs/Empty}
+'''
+USB_CAMERA = '''\
+name: usb_camera
+spec_version: 1
+spec_type: provider
+implements: ours/Camera
+'''
+DANCE = '''\
+compatibility: rocon:/kobuki
+launch: dance.launch
+'''
+
+
+def findings_in(workspace, monkeypatch, *package_path):
+    """What is found in a workspace, as lines with paths relative to it."""
+    monkeypatch.chdir(workspace)
+    return [str(finding) for finding in check_packages(['.'], package_path)]
+
+
+def found(tmp_path, monkeypatch, exports=(), **files):
+    """What is found in the package ours; each file is exported by its folder."""
+    kinds = {'interfaces': 'capability_interface', 'semantic': 'semantic_capability_interface',
+             'providers': 'capability_provider', 'rapps': 'rocon_app'}
+    folders = [(kinds.get(key.partition('__')[0]), '.'.join(key.replace('__', '/').rsplit('_', 1)))
+               for key in files]
+    exports = [(tag, path) for tag, path in folders
+               if tag and path.endswith(('.yaml', '.rapp'))] + list(exports)
+    make_package(tmp_path, 'ours', exports, **files)
+    prefix = 'ours' + os.sep
+    return [line[len(prefix):].partition('; to register it')[0]
+            for line in findings_in(tmp_path, monkeypatch)]
+
+
+# Workspaces
+
+@pytest.mark.parametrize('folder', ['examples/workspace', 'test/workspace'])
+def test_the_workspaces_of_this_repository_are_clean(folder):
+    assert check_packages([str(ROOT / folder)]) == []
+
+
+@needs_corpus
+def test_in_the_corpus_only_what_is_really_wrong_is_found():
+    findings = check_packages([CORPUS])
+    others = [finding for finding in findings if not finding.text.endswith('does not exist')]
+    assert [(finding.severity, finding.line, finding.column) for finding in others] == [
+        (WARNING, 18, 9),       # a description that is there twice
+        (ERROR, 11, 19),        # kinect_rgbd_sensor, which is called rgbd_sensor
+        (WARNING, 16, 5)]       # image_color/compressed, below a topic of the interface
+    missing = [finding for finding in findings if finding not in others]
+    assert {finding.severity for finding in missing if finding.text.startswith('icon')} == {WARNING}
+    assert {finding.severity for finding in missing if 'launch file' in finding.text} == {ERROR}
+    assert [finding.text for finding in missing
+            if not finding.text.startswith(('icon', 'launch file'))] == [
+        "preferred provider 'create_capabilities/create_differential_mobile_base' does not exist"]
+
+
+def test_what_a_package_refers_to_may_be_elsewhere_on_the_package_path(tmp_path, monkeypatch):
+    make_package(tmp_path / 'a', 'theirs', [('capability_interface', 'Camera.yaml')],
+                 Camera_yaml=CAMERA)
+    make_package(tmp_path / 'b', 'ours', [('capability_provider', 'usb_camera.yaml')],
+                 usb_camera_yaml=USB_CAMERA.replace('ours', 'theirs'))
+    assert findings_in(tmp_path / 'b', monkeypatch, str(tmp_path / 'a')) == []
+    assert len(findings_in(tmp_path / 'b', monkeypatch)) == 1
+
+
+def test_only_the_packages_that_are_asked_for_are_checked(tmp_path, monkeypatch):
+    make_package(tmp_path / 'a', 'theirs', [('rocon_app', 'dance.rapp')], dance_rapp='[')
+    make_package(tmp_path / 'b', 'ours')
+    assert findings_in(tmp_path / 'b', monkeypatch, str(tmp_path / 'a')) == []
+
+
+def test_nothing_is_told_twice_and_all_is_sorted(tmp_path, monkeypatch):
+    """Two rapps share a public interface with a fault in it."""
+    rapp = 'public_interface: shared.interface\ncolour: red\nicon: i.png\n'
+    lines = found(tmp_path, monkeypatch, rapps__b_rapp=rapp, rapps__a_rapp=rapp,
+                  rapps__shared_interface='publishers: [{name: 7up, type: a/B}]')
+    assert [line.partition(' ')[0] for line in lines] == [
+        'rapps/a.rapp:2:1:', 'rapps/a.rapp:3:7:', 'rapps/b.rapp:2:1:', 'rapps/b.rapp:3:7:',
+        'rapps/shared.interface:1:21:']
+
+
+# package.xml
+
+@pytest.mark.parametrize('export, finding', [
+    ('<rocon_app>dance.rapp</rocon_app>', "8:5: error: exported file 'dance.rapp' does not exist"),
+    ('<capability_interface>\n  a.yaml\n</capability_interface>',
+     "8:5: error: exported file 'a.yaml' does not exist"),
+    ('<rocon_uri rules="${prefix}/rules.yaml"/>',
+     "8:5: error: exported file './rules.yaml' does not exist"),
+    ('<rocon_app/>', "8:5: error: exported file '' is not a file"),
+    ('<rocon_app>.</rocon_app>', "8:5: error: exported file '.' is not a file"),
+    ('<rocon_app>../../etc/passwd</rocon_app>',
+     "8:5: error: exported file '../../etc/passwd' is outside the package"),
+    ('<rocon_app>/etc/passwd</rocon_app>',
+     "8:5: error: exported file '/etc/passwd' is outside the package"),
+    ('<rocon_app>here.rapp</rocon_app> <rocon_app>here.rapp</rocon_app>',
+     "8:38: error: 'here.rapp' is exported twice"),
+    ('<rosdoc>missing</rosdoc><x><rocon_app>missing</rocon_app></x>', None),
+])
+def test_an_export_names_a_file_of_the_package(tmp_path, monkeypatch, export, finding):
+    folder = make_package(tmp_path, 'ours', here_rapp='{}')
+    manifest = (folder / 'package.xml').read_text()
+    (folder / 'package.xml').write_text(
+        manifest.replace('<export>\n\n', '<export>\n    %s\n' % export))
+    lines = [line for line in findings_in(tmp_path, monkeypatch) if 'package.xml' in line]
+    assert lines == ([] if finding is None else ['ours/package.xml:' + finding])
+
+
+def test_an_invalid_manifest_is_found_and_hides_no_other(tmp_path, monkeypatch):
+    (make_package(tmp_path, 'bad') / 'package.xml').write_text('<package>\n<name>bad</nam>')
+    make_package(tmp_path, 'ours', [('rocon_app', 'missing.rapp')])
+    lines = findings_in(tmp_path, monkeypatch)
+    assert len(lines) == 2 and 'mismatched tag' in lines[0]
+    assert lines[0].startswith('bad/package.xml:2:') and ': error: ' in lines[0]
+
+
+def test_rules_that_are_exported_are_read(tmp_path, monkeypatch):
+    folder = make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp')], dance_launch='',
+                          dance_rapp='{compatibility: "rocon:/our_robot", launch: dance.launch}',
+                          rules_yaml='hardware_platform: {robot: [our_robot]}')
+    lines = findings_in(tmp_path, monkeypatch)
+    assert len(lines) == 1 and "'our_robot' is not registered" in lines[0]
+    manifest = (folder / 'package.xml').read_text()
+    (folder / 'package.xml').write_text(
+        manifest.replace('</export>', '<rocon_uri rules="${prefix}/rules.yaml"/></export>'))
+    assert findings_in(tmp_path, monkeypatch) == []
+    (folder / 'rules.yaml').write_text('hardware_platform:\n- "*"\n')
+    lines = findings_in(tmp_path, monkeypatch)
+    assert lines[-1].startswith("ours/rules.yaml:2:3: error: hardware_platform '*' is not")
+
+
+# Specs
+
+@pytest.mark.parametrize('old, new, finding', [
+    ('', '', None),
+    ('image:', "'1mage':", "7:7: error: topic '1mage' is not a legal ROS name"),
+    ('image:', "'a b':", "7:7: error: topic 'a b' is not a legal ROS name"),
+    ('sensor_msgs/Image', 'Image',
+     "7:21: error: type 'Image' of topic 'image' is not of the form package/Type"),
+    ('sensor_msgs/Image', 'sensor_msgs/msg/Image',
+     "7:21: error: type 'sensor_msgs/msg/Image' of topic 'image' is not of the form package/Type "
+     "(did you mean 'sensor_msgs/Image'?)"),
+    ('    requires:', '  parameters:\n    requires:', None),    # ... whose type is any word
+    ('std_msgs/Empty}', 'std_msgs/Empty}\n  dynamic_parameters: [gain, 7]',
+     '10:30: error: the name of a dynamic_parameter is 7, expected text'),
+    ('std_msgs/Empty}', "std_msgs/Empty}\n  dynamic_parameters: [gain, 'a-b']",
+     "10:30: error: dynamic_parameter 'a-b' is not a legal ROS name"),
+    ('name: Camera', 'name: Camera\ndescritpion: x',
+     "2:1: warning: unknown key 'descritpion' in the spec (did you mean 'description'?)"),
+    ('type: sensor', 'tpye: sensor', "7:7: error: topic 'image' has no type"),
+    (CAMERA, '[', '2:1: error: did not find expected node content while parsing a flow node'),
+    ('name: Camera', 'nmae: Camera',
+     "1:1: error: unknown key 'nmae', and the spec has no name (did you mean 'name'?)"),
+])
+def test_interfaces(tmp_path, monkeypatch, old, new, finding):
+    lines = found(tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA.replace(old, new, 1))
+    assert lines[:1] == ([] if finding is None else ['interfaces/Camera.yaml:' + finding])
+
+
+@pytest.mark.parametrize('text, finding', [
+    ('global_namespace: front', None),
+    ('remappings: {topics: {image: front/image}}', None),
+    ('remappings: {topics: {imgae: x}}',
+     "5:23: error: 'ours/Camera' has no 'imgae' in topics to remap (did you mean 'image'?)"),
+    ('remappings: {topics: {image: "a b"}}', "5:30: error: new name 'a b' is not a legal ROS name"),
+    ('remappings: {topics: {image: /flash}}',
+     "5:23: error: 'image' and '/flash' of topics both come out as '/flash'"),
+    ('global_namespace: front-', "5:19: error: global_namespace 'front-' is not a legal ROS name"),
+])
+def test_semantic_interfaces(tmp_path, monkeypatch, text, finding):
+    lines = found(tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA, semantic__Front_yaml=(
+        'name: Front\nspec_version: 1\nspec_type: semantic_interface\nredefines: ours/Camera\n'
+        + text))
+    assert lines == ([] if finding is None else ['semantic/Front.yaml:' + finding])
+
+
+@pytest.mark.parametrize('text, finding', [
+    ('', None),
+    ('launch_file: launch/usb.launch', None),       # relative to the package ...
+    ('launch_file: beside.launch', None),           # ... or to the spec
+    ('launch_file: lauch/usb.launch',
+     "5:14: error: launch file 'lauch/usb.launch' does not exist"),
+    ('launch_file: launch', "5:14: error: launch file 'launch' is not a file"),
+    ('launch_file: ../../../etc/passwd',
+     "5:14: error: launch file '../../../etc/passwd' is outside the package"),
+    ('launch_file: /etc/passwd', "5:14: error: launch file '/etc/passwd' is outside the package"),
+    ('remappings: {topics: {image: /usb/image}}', None),
+    ('remappings: {topics: {/image: x}}',
+     "5:23: error: 'ours/Camera' has no '/image' in topics to remap (did you mean 'image'?)"),
+    ('remappings: {services: {image: x}}',
+     "5:25: error: 'ours/Camera' has no 'image' in services to remap"),
+    ('remappings: {topics: {image/compressed: x}}',
+     "5:23: warning: 'ours/Camera' has no 'image/compressed' in topics to remap"),
+    ('remappings: {topics: {image: 7/x}}', "5:30: error: new name '7/x' is not a legal ROS name"),
+    ('depends_on: ours/Light', None),
+    ('depends_on: ours/Lihgt',
+     "5:13: error: capability 'ours/Lihgt' does not exist (did you mean 'ours/Light'?)"),
+    ('depends_on: [ours/Light, ours/Lamp]', "5:26: error: capability 'ours/Lamp' does not exist"),
+    ('depends_on:\n  ours/Lamp:', "6:3: error: capability 'ours/Lamp' does not exist"),
+    ('depends_on: {ours/Light: {provider: ours/led}}', None),
+    ('depends_on: {ours/Light: {provider: ours/lde}}',
+     "5:37: error: preferred provider 'ours/lde' does not exist (did you mean 'ours/led'?)"),
+    ('depends_on: {ours/Light: {provider: ours/usb_camera}}',
+     "5:37: error: preferred provider 'ours/usb_camera' implements 'ours/Camera', "
+     "not 'ours/Light'"),
+    ('depends_on: ours/Camera',
+     '5:13: error: providers depend on each other in a cycle: '
+     'ours/usb_camera -> ours/usb_camera'),
+    ('launchfile: x', "5:1: warning: unknown key 'launchfile' in the spec"),
+])
+def test_providers(tmp_path, monkeypatch, text, finding):
+    light = CAMERA.replace('Camera', 'Light')
+    led = USB_CAMERA.replace('usb_camera', 'led').replace('Camera', 'Light')
+    lines = found(tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA,
+                  interfaces__Light_yaml=light, providers__usb_camera_yaml=USB_CAMERA + text,
+                  providers__led_yaml=led, launch__usb_launch='', providers__beside_launch='')
+    assert [line.partition(' (did you mean')[0] if finding and 'did you' not in finding else line
+            for line in lines] == (
+        [] if finding is None else ['providers/usb_camera.yaml:' + finding])
+
+
+def test_a_provider_of_nothing_and_two_specs_of_one_name_are_errors(tmp_path, monkeypatch):
+    assert found(
+        tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA, interfaces__Other_yaml=CAMERA,
+        providers__usb_camera_yaml=USB_CAMERA.replace('ours/Camera', 'ours/Camrea')) == [
+        "interfaces/Other.yaml:1:7: error: 'ours/Camera' is the name of an interface already, in "
+        + quoted(str(tmp_path / 'ours/interfaces/Camera.yaml')),
+        "providers/usb_camera.yaml:4:13: error: provider 'ours/usb_camera' implements "
+        "'ours/Camrea', which is no interface that any package exports "
+        "(did you mean 'ours/Camera'?)"]
+
+
+# Rapps
+
+@pytest.mark.parametrize('text, findings', [
+    (DANCE, []),
+    (DANCE.replace('kobuki', 'kobukki'),
+     ["1:23: error: compatibility: hardware_platform 'kobukki' is not registered (did you mean "
+      "'kobuki'?)"]),
+    (DANCE.replace('rocon:/kobuki', '"rocon:/pr2|kobukki"'),
+     ["1:28: error: compatibility: hardware_platform 'kobukki' is not registered (did you mean "
+      "'kobuki'?)"]),
+    (DANCE.replace('rocon:/kobuki', '>-\n  rocon:/kobukki'),     # nothing nearer is known
+     ["1:16: error: compatibility: hardware_platform 'kobukki' is not registered (did you mean "
+      "'kobuki'?)"]),
+    (DANCE.replace('rocon:/', 'rocon://'),
+     ["1:16: warning: compatibility: 'rocon://kobuki' is read as 'rocon:/kobuki', since kobuki is "
+      'a hardware_platform and no concert']),
+    (DANCE.replace('dance.launch', 'dnace.launch'),
+     ["2:9: error: launch file 'dnace.launch' does not exist"]),
+    (DANCE.replace('dance.launch', '../../../etc/passwd'),
+     ["2:9: error: launch file '../../../etc/passwd' is outside the package"]),
+    (DANCE + 'icon: dance.png', ["3:7: warning: icon 'dance.png' does not exist"]),
+    (DANCE + 'icon: ../../x.png', ["3:7: error: icon '../../x.png' is outside the package"]),
+    (DANCE + 'icon: dance.launch', []),
+    (DANCE + 'dispaly: Dance',
+     ["3:1: warning: unknown key 'dispaly' in a rapp (did you mean 'display'?)"]),
+    (DANCE + 'parent_name: motoin',
+     ["3:14: error: parent_name 'ours/motoin' is no rapp that can be read (did you mean "
+      "'ours/motion'?)"]),
+    (DANCE + 'parent_name: dance',
+     ["3:14: error: rapp 'ours/dance' is its own ancestor: ours/dance -> ours/dance"]),
+    ('launch: dance.launch',
+     ['1:9: warning: the rapp has launch and no compatibility, so it never runs']),
+    ('compatibility: rocon:/',
+     ['1:16: warning: the rapp has compatibility and no launch, so it never runs']),
+    ('launch: 7', ['1:9: error: launch is 7, expected text']),
+    (DANCE + 'public_interface: x.interface',
+     ["3:19: error: public_interface 'x.interface' does not exist"]),
+    (DANCE + 'required_capabilities: [{name: ours/Camrea}]',
+     ["3:32: error: capability 'ours/Camrea' does not exist (did you mean 'ours/Camera'?)"]),
+    (DANCE + 'required_capabilities: [{name: ours/Camera, interfcae: {}}]',
+     ["3:45: warning: unknown key 'interfcae' in a required capability (did you mean "
+      "'interface'?)"]),
+    (DANCE + 'required_capabilities: [{name: ours/Camera, interface: {topcis: {}}}]',
+     ["3:57: warning: unknown key 'topcis' in interface (did you mean 'topics'?)"]),
+    (DANCE + 'required_capabilities: [{name: ours/Camera, interface: {topics: {image: x}}}]',
+     ["3:66: warning: unknown key 'image' in topics"]),
+    (DANCE + '''\
+required_capabilities:
+- name: ours/Camera
+  interface:
+    topics:
+      requires: {/flahs: dance/flash}
+      provides: {image: dance image}
+''', ["7:18: error: 'ours/Camera' has no '/flahs' in topics to remap (did you mean '/flash'?)",
+      "8:25: error: new name 'dance image' is not a legal ROS name"]),
+])
+def test_rapps(tmp_path, monkeypatch, text, findings):
+    assert found(tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA, rapps__dance_rapp=text,
+                 rapps__motion_rapp='{}', rapps__dance_launch='') == [
+        'rapps/dance.rapp:' + finding for finding in findings]
+
+
+def test_a_rapp_that_no_uri_can_name_is_a_warning(tmp_path, monkeypatch):
+    folder = make_package(tmp_path, 'ours', [('rocon_app', 'tango-nuevo.rapp')])
+    (folder / 'tango-nuevo.rapp').write_text('{}')
+    (line,) = findings_in(tmp_path, monkeypatch)
+    assert line.startswith('ours/tango-nuevo.rapp: warning: no rocon URI can name rapp')
+
+
+@pytest.mark.parametrize('name, text, finding', [
+    ('interface', 'publishers: [{name: image, type: sensor_msgs/Image}]\nsubscribers: []', None),
+    ('interface', '', None),
+    ('interface', '[', '2:1: error: did not find expected node content while parsing a flow node'),
+    ('interface', '- a', '1:1: error: public_interface is no mapping'),
+    ('interface', 'publisher: []',
+     "1:1: warning: unknown key 'publisher' in public_interface (did you mean 'publishers'?)"),
+    ('interface', 'publishers: 7', '1:13: error: publishers is no list'),
+    ('interface', 'services: [reset]',
+     '1:12: error: services has something else than mappings with a name and a type'),
+    ('interface', 'services: [{name: reset}]',
+     '1:12: error: services has something else than mappings with a name and a type'),
+    ('interface', 'services: [{name: re-set, type: std_srvs/Empty}]',
+     "1:19: error: name 're-set' is not a legal ROS name"),
+    ('interface', 'services: [{name: reset, type: Empty}]',
+     "1:32: error: type 'Empty' of 'reset' is not of the form package/Type"),
+    ('parameters', 'speed: 7', None),
+    ('parameters', '7', '1:1: error: public_parameters is no mapping'),
+])
+def test_the_public_files_of_rapps(tmp_path, monkeypatch, name, text, finding):
+    files = {'rapps__dance_' + name: text}
+    assert found(tmp_path, monkeypatch, rapps__dance_rapp='public_%s: dance.%s' % (name, name),
+                 **files) == ([] if finding is None else ['rapps/dance.%s:%s' % (name, finding)])
+
+
+# Interactions
+
+LISTENER = '{name: Listener, compatibility: "rocon:/pc"}'
+
+
+@pytest.mark.parametrize('text', [
+    '[%s]' % LISTENER,
+    'interactions: [%s]' % LISTENER,
+    'interactions: [%s]\npairings: [{name: Talk, rapp: ours/dance}]' % LISTENER,
+    '- {group: A, interactions: [%s]}\n- {group: B, pairings: }' % LISTENER,
+    'Web apps: [%s]' % LISTENER,
+    '- Web apps: [%s]\n- Others: [%s]' % (LISTENER, LISTENER.replace('Listener', 'Talker')),
+])
+def test_interactions_in_all_forms_are_found(tmp_path, monkeypatch, text):
+    """There is nothing wrong, until a compatibility string is."""
+    files = {'rapps__dance_rapp': '{}'}
+    assert found(tmp_path / 'good', monkeypatch, x_interactions=text, **files) == []
+    bad = text.replace('rocon:/pc', 'rocon:/pcc', 1)
+    (line,) = found(tmp_path / 'bad', monkeypatch, x_interactions=bad, **files)
+    assert "hardware_platform 'pcc' is not registered (did you mean 'pc'?)" in line
+
+
+@pytest.mark.parametrize('text, findings', [
+    ('', ['1:1: error: expected interactions, the file is empty']),
+    ('7', ['1:1: error: expected a list of interactions, or a mapping that has one']),
+    ('{a: b}', ['1:1: error: expected a list of interactions, or a mapping that has one']),
+    ('[', ['2:1: error: did not find expected node content while parsing a flow node']),
+    ('[7]', ['1:2: error: an interaction is no mapping']),
+    ('interactions: 7', ['1:15: error: interactions is no list']),
+    ('interactons: [%s]' % LISTENER,
+     ["1:1: warning: unknown key 'interactons' (did you mean 'interactions'?)"]),
+    ('[{name: Listener}]', ['1:2: error: an interaction has no compatibility']),
+    ('[{compatibility: "rocon:/"}]', ['1:2: error: an interaction has no name']),
+    ('[{name: 7, compatibility: "rocon:/"}]', ['1:9: error: name is no text']),
+    ('[{name: A, compatibility: "rocon://pc"}]',
+     ["1:28: warning: compatibility: 'rocon://pc' is read as 'rocon:/pc', since pc is a "
+      'hardware_platform and no concert']),
+    ('[{name: A, compatibility: "rocon:/", comand: x}]',
+     ["1:38: warning: unknown key 'comand' in an interaction (did you mean 'command'?)"]),
+    ('[{name: A, compatibility: "rocon:/", namespace: a-b}]',
+     ["1:49: error: namespace 'a-b' is not a legal ROS name"]),
+    ('[{name: A, compatibility: "rocon:/", remappings: x}]',
+     ['1:50: error: remappings is no list']),
+    ('[{name: A, compatibility: "rocon:/", remappings: [{remap_from: a, remap_to: b-c}]}]',
+     ["1:77: error: remap_to 'b-c' is not a legal ROS name"]),
+    ('[{name: A, compatibility: "rocon:/", remappings: [{remap_from: a, to: b}]}]',
+     ['1:51: error: a remapping has no remap_to, or one that is no text',
+      "1:67: warning: unknown key 'to' in a remapping"]),
+    ('[%s, %s]' % (LISTENER, LISTENER), ["1:48: error: interaction 'Listener' is there twice"]),
+    ('pairings: [{name: Talk}]', ['1:12: error: a pairing has no rapp']),
+    ('pairings: [{name: Talk, rapp: ours/dacne}]',
+     ["1:31: error: rapp 'ours/dacne' does not exist (did you mean 'ours/dance'?)"]),
+])
+def test_interactions(tmp_path, monkeypatch, text, findings):
+    assert found(tmp_path, monkeypatch, deep__down__x_interactions=text,
+                 rapps__dance_rapp='{}') == [
+        'deep/down/x.interactions:' + finding for finding in findings]
+
+
+def test_interactions_of_a_package_within_are_not_those_of_the_package(tmp_path, monkeypatch):
+    folder = make_package(tmp_path, 'ours')
+    make_package(folder, 'inner', x_interactions='[')
+    assert findings_in(tmp_path, monkeypatch) == []
+
+
+# Hostile files
+
+@pytest.mark.parametrize('content', [
+    b'[' * 50000, b'\xff\xfe\x00', b'a: &a [' + b'*a, ' * 10 + b']', b'!!python/object:os.x {}',
+    b'{' * 99, b'\x00', b'x: ' + b'9' * 5000, b'? [a]\n: b', b'a' * (2 ** 20 + 1)])
+def test_what_no_file_should_hold_is_one_finding_for_each(tmp_path, monkeypatch, content):
+    names = ['Camera.yaml', 'usb.yaml', 'dance.rapp', 'rules.yaml']
+    folder = make_package(
+        tmp_path, 'ours', zip(['capability_interface', 'capability_provider', 'rocon_app'], names))
+    for name in [*names, 'x.interactions']:
+        (folder / name).write_bytes(content)
+    lines = findings_in(tmp_path, monkeypatch)
+    assert sorted(line.partition(':')[0] for line in lines) == [
+        'ours/Camera.yaml', 'ours/dance.rapp', 'ours/usb.yaml', 'ours/x.interactions']
+    assert all(': error: ' in line and len(line) < 400 for line in lines)
+
+
+def test_files_that_cannot_be_read_are_findings(tmp_path, monkeypatch):
+    folder = make_package(tmp_path, 'ours', [
+        ('rocon_app', 'loop.rapp'), ('rocon_app', 'fifo.rapp'), ('rocon_app', 'good.rapp')],
+        good_rapp='icon: i.png')
+    (folder / 'loop.rapp').symlink_to('loop.rapp')
+    os.mkfifo(str(folder / 'fifo.rapp'))
+    (folder / 'x.interactions').symlink_to('gone')
+    assert findings_in(tmp_path, monkeypatch) == [
+        "ours/good.rapp:1:7: warning: icon 'i.png' does not exist",
+        "ours/package.xml:8:5: error: exported file 'loop.rapp' does not exist",
+        "ours/package.xml:9:5: error: exported file 'fifo.rapp' is not a file",
+        'ours/x.interactions: error: cannot be read: No such file or directory']
+
+
+texts = st.text(st.sampled_from('abc/:|*[]{}&!-,\'" \n~0.#%'), max_size=30)
+values = st.recursive(
+    st.none() | st.booleans() | st.integers(-9, 99) | texts,
+    lambda below: st.lists(below, max_size=3) | st.dictionaries(
+        st.sampled_from(['name', 'interface', 'topics', 'requires', 'provides', 'type', 'image',
+                         'remappings', 'interactions', 'compatibility', 'remap_from', '/flash',
+                         'provider', 'ours/Camera', 'required_capabilities', 'services']),
+        below, max_size=3), max_leaves=10)
+
+
+@pytest.fixture(scope='module')
+def package(tmp_path_factory):
+    return make_package(
+        tmp_path_factory.mktemp('any'), 'ours', [
+            ('capability_interface', 'Camera.yaml'), ('capability_provider', 'usb.yaml'),
+            ('semantic_capability_interface', 'Front.yaml'), ('rocon_app', 'dance.rapp')],
+        Camera_yaml=CAMERA)
+
+
+@settings(max_examples=150)
+@given(st.fixed_dictionaries({
+    key: values for key in ('interface', 'remappings', 'depends_on', 'required_capabilities',
+                            'launch_file', 'compatibility', 'public_interface')}))
+def test_whatever_files_say_the_linter_answers(package, data):
+    import json
+    head = {'spec_version': 1, 'name': 'usb', 'implements': 'ours/Camera',
+            'redefines': 'ours/Camera'}
+    spec_types = {'usb.yaml': 'provider', 'Front.yaml': 'semantic_interface'}
+    for name, spec_type in spec_types.items():
+        spec = {**head, **data, 'spec_type': spec_type, 'name': name.partition('.')[0]}
+        (package / name).write_text(json.dumps(spec))
+    (package / 'dance.rapp').write_text(json.dumps(data))
+    (package / 'x.interactions').write_text(json.dumps([data['interface'], data]))
+    for finding in check_packages([str(package)]):
+        assert '\n' not in str(finding)
+
+
+# Findings
+
+def test_findings_are_told_in_three_forms():
+    finding = Finding('a.rapp', 3, 9, ERROR, 'no')
+    assert str(finding) == 'a.rapp:3:9: error: no'
+    assert finding.as_json() == {'file': 'a.rapp', 'line': 3, 'column': 9, 'severity': 'error',
+                                 'text': 'no'}
+    assert finding.as_github() == '::error file=a.rapp,line=3,col=9::no'
+    nowhere = Finding('a.rapp', None, None, WARNING, 'no')
+    assert (str(nowhere), nowhere.as_github()) == ('a.rapp: warning: no',
+                                                   '::warning file=a.rapp::no')
+
+
+def test_github_gets_no_command_from_a_file():
+    finding = Finding('a:b,c%\n::error::x', 1, 1, WARNING, '100%\r\n::set-output name=x::y')
+    assert finding.as_github() == ('::warning file=a%3Ab%2Cc%25%0A%3A%3Aerror%3A%3Ax,line=1,col=1'
+                                   '::100%25%0D%0A::set-output name=x::y')
+    assert '\n' not in str(finding)
