@@ -7,26 +7,44 @@ True
 """
 from __future__ import annotations
 
-from rocon_uri.compatibility import Relation, explain, is_compatible, relation
-from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
-from rocon_uri.platform import generate_platform_rocon_uri
-from rocon_uri.uri import RoconURI, default_uri_string, parse
-from rocon_uri.field import Field
-from rocon_uri.vocabulary import Vocabulary
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import List
+
+    from rocon_uri.compatibility import Relation, explain, is_compatible, relation
+    from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
+    from rocon_uri.field import Field
+    from rocon_uri.platform import generate_platform_rocon_uri
     from rocon_uri.resource_index import ResourceIndex
+    from rocon_uri.uri import RoconURI, default_uri_string, parse
+    from rocon_uri.vocabulary import Vocabulary
 
 __all__ = ['Field', 'PatternTooComplex', 'Relation', 'ResourceIndex', 'RoconURI',
            'RoconURIValueError', 'Vocabulary', 'default_uri_string', 'explain',
            'generate_platform_rocon_uri', 'is_compatible', 'parse', 'relation']
 
+# The modules are imported when a name of theirs is asked for. A program that only may need this
+# package starts at no cost, and one that parses does not pay for the rest.
+_NAMES = {
+    'compatibility': ('Relation', 'explain', 'is_compatible', 'relation'),
+    'exceptions': ('PatternTooComplex', 'RoconURIValueError'),
+    'field': ('Field',),
+    'platform': ('generate_platform_rocon_uri',),
+    'resource_index': ('ResourceIndex',),
+    'uri': ('RoconURI', 'default_uri_string', 'parse'),
+    'vocabulary': ('Vocabulary',),
+}
+
 
 def __getattr__(name: str) -> object:
-    # What few programs need is imported when it is asked for: it would add 4 % to the import.
-    if name == 'ResourceIndex':
-        from rocon_uri.resource_index import ResourceIndex
-        globals()[name] = ResourceIndex
-        return ResourceIndex
+    from importlib import import_module
+    for module_name, names in _NAMES.items():
+        if name == module_name or name in names:
+            module = import_module('rocon_uri.' + module_name)
+            globals()[name] = module if name == module_name else getattr(module, name)
+            return globals()[name]
     raise AttributeError('module %r has no attribute %r' % (__name__, name))
+
+
+def __dir__() -> List[str]:
+    return sorted({*globals(), *__all__})
