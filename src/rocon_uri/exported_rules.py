@@ -12,7 +12,8 @@ from __future__ import annotations
 import os
 
 from rocon_uri.exceptions import quoted
-from rocon_uri.vocabulary import RulesError, Vocabulary
+from rocon_uri.field_vocabulary import RulesError
+from rocon_uri.vocabulary import Vocabulary
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -1,198 +1,28 @@
 """
-Vocabularies: the values that the fields of a rocon URI may have, and the groups that they form.
+Vocabularies: the values that the fields of a rocon URI may have.
 
-A group stands for its members, at every depth. A vocabulary never changes: more rules make a new
-one. What a URI is read with where nothing else is said is `current`: first what is bundled, then,
-once it was `complete`, also what the packages on this machine export.
+A vocabulary never changes: more rules make a new one. What a URI is read with where nothing else is
+said is `current`: first what is bundled, then, once it was `complete`, also what the packages on
+this machine export.
 """
 from __future__ import annotations
 
 import itertools
 import os
-import threading
+from _thread import RLock       # as functools has it: to import threading takes longer than to parse
 
 from rocon_uri.exceptions import quoted
-from rocon_uri.grammar import NAME_LIMIT, VOCABULARY_FIELDS
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.field_vocabulary import FieldVocabulary, RulesError, members
+from rocon_uri.grammar import VOCABULARY_FIELDS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
+    from typing import Any, Dict, Mapping, Optional
 
-__all__ = ['FieldVocabulary', 'RulesError', 'Vocabulary', 'complete', 'completed', 'current',
-           'members']
+__all__ = ['Vocabulary', 'complete', 'completed', 'current']
 
 _RULES_FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'rules')
 _serial_numbers = itertools.count()
-
-
-class RulesError(ValueError):
-    """
-    Rules that do not fit: a name that is not legal, or one under two parents of one field.
-
-    :param str problem: what is wrong
-    :param path: sequence of the keys and indices that lead to it in the rules
-
-    ``problem`` and ``path`` are attributes too.
-    """
-
-    def __init__(self, problem: str, path: Tuple[Any, ...] = ()) -> None:
-        super().__init__(problem)
-        self.problem = problem
-        self.path = path
-
-
-def members(rules: Any, path: Tuple[Any, ...] = ()) -> Iterator[Tuple[Any, Any, Tuple[Any, ...]]]:
-    """
-    The names directly below a group of rules, in whichever way it is written down.
-
-    :param rules: a mapping from a name to the rules below it, a list of names and mappings, a
-        single name, or None for nothing
-    :param path: where the rules stand, for errors
-    :returns: iterator of (name, rules below it, path)
-
-    >>> [name for name, below, path in members({'a': None, 'b': ['c']})]
-    ['a', 'b']
-    """
-    if isinstance(rules, dict):
-        for name, below in rules.items():
-            yield name, below, path + (name,)
-    elif isinstance(rules, list):
-        for index, item in enumerate(rules):
-            if isinstance(item, list):
-                raise RulesError('a list stands where a value or a group belongs', path + (index,))
-            for name, below, place in members(item, path + (index,)):
-                yield name, below, place
-    elif rules is not None:
-        yield rules, None, path
-
-
-class FieldVocabulary:
-    """
-    The values and groups of one field.
-
-    :param str name: one of `rocon_uri.grammar.VOCABULARY_FIELDS`
-    :param parents: mapping from each value and group, in order, to its group, or to None
-    """
-
-    __slots__ = ('name', '_parents', '_children', '_bits')
-
-    def __init__(self, name: str, parents: Mapping[str, Optional[str]]) -> None:
-        self.name = name
-        self._parents = dict(parents)
-        self._children: Dict[Optional[str], List[str]] = {None: []}
-        for value, parent in self._parents.items():
-            self._children.setdefault(parent, []).append(value)
-        leaves = (value for value in self._parents if value not in self._children)
-        self._bits = {value: bit for bit, value in enumerate(leaves)}
-
-    def __contains__(self, value: object) -> bool:
-        return value in self._parents
-
-    def __iter__(self) -> Iterator[str]:
-        """All values and groups, a group before its members."""
-        for value in self._children[None]:
-            yield value
-            for below in self._below(value):
-                yield below
-
-    def _below(self, value: str) -> Iterator[str]:
-        waiting = list(reversed(self._children.get(value, ())))
-        while waiting:
-            below = waiting.pop()
-            yield below
-            waiting.extend(reversed(self._children.get(below, ())))
-
-    def children(self, group: Optional[str] = None) -> List[str]:
-        """
-        What stands directly in a group, or at the top.
-
-        :param group: str, or None for the top
-        :returns: list of str; empty for a value that is no group
-
-        >>> Vocabulary.bundled().field('hardware_platform').children('mobile_device')
-        ['phone', 'tablet']
-        """
-        return list(self._children.get(group, ()))
-
-    def leaves(self, value: str) -> List[str]:
-        """
-        The values that a group stands for, at every depth; a value stands for itself.
-
-        :param str value: a registered value or group
-        :returns: list of str, in the order of the vocabulary
-        :raises KeyError: if it is not registered
-        """
-        if value in self._bits:
-            return [value]
-        self._parents[value]
-        return [below for below in self._below(value) if below in self._bits]
-
-    def mask(self, value: str) -> int:
-        """
-        The same as a set of bits, one for each value that is no group.
-
-        :param str value: a registered value or group
-        :returns: int
-        :raises KeyError: if it is not registered
-        """
-        mask = 0
-        for leaf in self.leaves(value):
-            mask |= 1 << self._bits[leaf]
-        return mask
-
-    def covering(self, mask: int) -> List[str]:
-        """
-        The fewest values and groups that stand for exactly the values of a mask.
-
-        :param int mask: as `mask` returns
-        :returns: list of str
-
-        >>> systems = Vocabulary.bundled().field('operating_system')
-        >>> systems.covering(systems.mask('ubuntu') & systems.mask('linux'))
-        ['ubuntu']
-        """
-        found: List[str] = []
-        waiting = self._children[None][::-1]
-        while waiting and mask:
-            value = waiting.pop()
-            own = self.mask(value)
-            if own and not own & ~mask:
-                found.append(value)
-                mask &= ~own
-            elif own & mask:
-                waiting.extend(reversed(self._children[value]))
-        return found
-
-    def extended(self, rules: Any, path: Tuple[Any, ...] = ()) -> 'FieldVocabulary':
-        """
-        This vocabulary with more values and groups.
-
-        :param rules: as `members` takes; a name that is known is the group that exists
-        :param path: where the rules stand, for errors
-        :returns: FieldVocabulary
-        :raises RulesError: for a name that is no ROS base name or is in two groups
-        """
-        parents = dict(self._parents)
-        # In the order of the rules and in depth: what a group is in is known once it is extended.
-        waiting = [(None, entry) for entry in members(rules, path)][::-1]
-        while waiting:
-            parent, (name, below, place) = waiting.pop()
-            _check_name(self.name, name, place)
-            known = parents.setdefault(name, parent)
-            if parent is not None and known != parent:
-                raise RulesError("%s '%s' cannot be in '%s', since it is %s already" % (
-                    self.name, name, parent, "in '%s'" % known if known else 'in no group'), place)
-            waiting += [(name, entry) for entry in members(below, place)][::-1]
-        return FieldVocabulary(self.name, parents)
-
-
-def _check_name(field: str, name: Any, path: Tuple[Any, ...]) -> None:
-    if not isinstance(name, str):
-        raise RulesError('%s %r is not text; put it in quotes' % (field, name), path)
-    if not is_legal_base_name(name) or len(name) > NAME_LIMIT:
-        raise RulesError('%s %s is not a ROS base name (a letter, then letters, digits and _)'
-                         % (field, quoted(name)), path)
 
 
 class Vocabulary:
@@ -310,7 +140,7 @@ def _extended(fields: Mapping[str, FieldVocabulary],
 
 _initial: Optional[Vocabulary] = None       # what is bundled, in use until more is asked for
 _complete: Optional[Vocabulary] = None
-_lock = threading.RLock()
+_lock = RLock()
 
 
 def current() -> Vocabulary:

@@ -22,7 +22,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
     from typing import Any, Dict
-    from rocon_uri.vocabulary import FieldVocabulary
+    from rocon_uri.field_vocabulary import FieldVocabulary
 
 __all__ = ['add_arguments', 'main']
 
