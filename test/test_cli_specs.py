@@ -209,6 +209,24 @@ def test_check_for_github(specs, tmp_path, monkeypatch):
                                    "::icon '../../x.png' is outside the package")
 
 
+@pytest.mark.parametrize('warning_only, failures, element', [
+    (True, '0', 'system-out'), (False, '1', 'failure')])
+def test_check_writes_a_report_for_catkin(specs, tmp_path, monkeypatch, warning_only, failures,
+                                          element):
+    bad_package(tmp_path, warning_only)
+    monkeypatch.chdir(tmp_path)
+    specs('check', '.', '--junit', 'results/bad/check.xml')
+    suite = ElementTree.parse(str(tmp_path / 'results/bad/check.xml')).getroot()
+    assert (suite.get('tests'), suite.get('failures'), suite.get('errors')) == ('1', failures, '0')
+    assert "unknown key 'colour' in a rapp" in suite.find('testcase/' + element).text
+
+
+def test_check_whose_report_cannot_be_written_is_2(specs, tmp_path):
+    (tmp_path / 'file').write_text('')
+    status, _, err = specs('check', EXAMPLES, '--junit', tmp_path / 'file' / 'check.xml')
+    assert status == 2 and 'cannot write' in err
+
+
 @needs_corpus
 def test_check_of_the_corpus_finds_errors(specs):
     status, out, err = specs('check', CORPUS)

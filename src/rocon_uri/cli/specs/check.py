@@ -45,6 +45,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--format', choices=('text', 'github'), default='text',
                         help='github is for the log of a GitHub workflow, which shows each '
                         'finding beside its line')
+    parser.add_argument('--junit', metavar='FILE',
+                        help='also write a report of test results, as catkin reads it')
 
 
 def main(args: argparse.Namespace) -> int:
@@ -52,6 +54,7 @@ def main(args: argparse.Namespace) -> int:
     # here, since they load catkin_pkg and YAML, and a verb can be asked for help without
     from capabilities.discovery import package_index_from_package_path
     from rocon_uri.lint import ERROR, check_package_index
+    from rocon_uri.lint.junit import junit_text
     escape_unencodable()
     quiet_loggers()
     report = PackageReport(args.json)
@@ -69,6 +72,8 @@ def main(args: argparse.Namespace) -> int:
     else:
         for finding in findings:
             print(finding.as_github() if args.format == 'github' else finding)
+    if args.junit is not None:
+        _write(junit_text(' '.join(checked) or 'nothing', findings), args.junit, report)
     errors = sum(finding.severity == ERROR for finding in findings)
     say('rocon_uri: %s and %s in %s' % (
         _counted(errors, 'error'), _counted(len(findings) - errors, 'warning'),
@@ -91,6 +96,15 @@ def _given_packages(paths: List[str], report: PackageReport) -> Tuple[Dict[str, 
                         if name not in packages)
         faults += new_faults
     return packages, faults
+
+
+def _write(text: str, path: str, report: PackageReport) -> None:
+    try:
+        os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text + '\n')
+    except OSError as error:
+        report.bad('cannot write %s: %s' % (quoted(path), error.strerror))
 
 
 def _counted(number: int, what: str) -> str:
