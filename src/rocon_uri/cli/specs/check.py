@@ -72,7 +72,7 @@ def main(args: argparse.Namespace) -> int:
     else:
         for finding in findings:
             print(finding.as_github() if args.format == 'github' else finding)
-    if args.junit is not None:
+    if args.junit is not None and not report.status:     # no report is a failure for catkin
         _write(junit_text(' '.join(checked) or 'nothing', findings), args.junit, report)
     errors = sum(finding.severity == ERROR for finding in findings)
     say('rocon_uri: %s and %s in %s' % (
