@@ -3,13 +3,14 @@ from __future__ import annotations
 
 import sys
 
+from rocon_uri.cli.lines import read_lines
+from rocon_uri.cli.progress import beside_progress
 from rocon_uri.exceptions import RoconURIValueError, quoted
-from rocon_uri.grammar import TEXT_LIMIT
 from rocon_uri.uri import parse
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Iterator, List, Optional, TextIO, Tuple
+    from typing import Any, Dict, Iterator, List, Optional
     from rocon_uri.uri import RoconURI
 
 __all__ = ['GivenURI', 'Report', 'say']
@@ -17,8 +18,9 @@ __all__ = ['GivenURI', 'Report', 'say']
 
 def say(text: str) -> None:
     """Tell the user something on stderr, below what was printed so far."""
-    sys.stdout.flush()
-    print(text, file=sys.stderr)
+    with beside_progress():
+        sys.stdout.flush()
+        print(text, file=sys.stderr)
 
 
 class GivenURI:
@@ -100,26 +102,28 @@ class Report:
             self.bad_uri(error, file, line)
             return None
 
-    def read_file(self, path: str) -> Iterator[GivenURI]:
+    def read_file(self, path: str) -> Iterator[List[GivenURI]]:
         """
-        Read a file of URIs, one a line, no faster than they are asked for.
+        Read a file of URIs, one a line.
 
         Blank lines and those whose first character is ``#`` are skipped; so are those that are
         not legal, but reported.
 
         :param str path: the file, ``-`` for standard input
-        :returns: iterator of GivenURI
+        :returns: iterator of lists of GivenURI, each of what can be had without waiting
         """
         name = '<stdin>' if path == '-' else path
+        number = 0
         try:
-            with open(0 if path == '-' else path, encoding='utf-8-sig', errors='surrogateescape',
-                      closefd=path != '-') as file:
-                for number, line in _lines(file):
+            for lines in read_lines(path):
+                batch = []
+                for number, line in enumerate(lines, number + 1):
                     text = line.strip()
                     if text and line[0] != '#':
                         given = self.read(text, name, number)
                         if given:
-                            yield given
+                            batch.append(given)
+                yield batch
         except OSError as error:
             self._unreadable(name, error)
 
@@ -151,16 +155,3 @@ class Report:
             self.errors.append({
                 'message': message, 'uri': None, 'field': None, 'value': None, 'span': None,
                 'suggestions': [], 'file': file, 'line': None})
-
-
-def _lines(file: TextIO) -> Iterator[Tuple[int, str]]:
-    """Each line with its number; of one that is longer than any URI, only the start."""
-    number = 0
-    while True:
-        line = file.readline(TEXT_LIMIT + 2)
-        if not line:
-            return
-        number += 1
-        yield number, line
-        while line and not line.endswith('\n'):
-            line = file.readline(TEXT_LIMIT + 2)

@@ -21,16 +21,21 @@ with --matrix
 """
 from __future__ import annotations
 
+from itertools import chain
+
 from rocon_uri.cli.display import painter
 from rocon_uri.cli.given import Report, say
-from rocon_uri.compatibility import is_compatible
+from rocon_uri.cli.progress import beside_progress
 from rocon_uri.exceptions import PatternTooComplex, quoted
+from rocon_uri.resource_index import ResourceIndex
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Iterable, Iterator, List, Optional, Tuple
+    from typing import Dict, Iterable, Iterator, List, Optional, Tuple
     from rocon_uri.cli.given import GivenURI
+    from rocon_uri.uri import RoconURI
+    Verdicts = List[Optional[bool]]
 
 __all__ = ['add_arguments', 'main']
 
@@ -57,7 +62,7 @@ def main(args: argparse.Namespace) -> int:
     report = Report(args.json)
     requests = [given for given in map(report.read, args.requests) if given]
     if args.requests_in is not None:
-        requests.extend(report.read_file(args.requests_in))
+        requests.extend(chain.from_iterable(report.read_file(args.requests_in)))
     matches = Matches(requests, report.read_file(args.resources_in), report, args.matrix)
     if args.json:
         _print_json(matches, report)
@@ -76,7 +81,7 @@ class Matches:
     Which resources which requests are compatible with; iterate it once.
 
     :param requests: list of GivenURI
-    :param resources: iterable of GivenURI
+    :param resources: iterable of lists of GivenURI
     :param Report report: is told of the undecided ones, after all others
     :param bool every: also the resources that no request is compatible with
 
@@ -84,33 +89,56 @@ class Matches:
     None for undecided. ``found`` says whether there was a True among those so far.
     """
 
-    def __init__(self, requests: List[GivenURI], resources: Iterable[GivenURI], report: Report,
-                 every: bool) -> None:
+    def __init__(self, requests: List[GivenURI], resources: Iterable[List[GivenURI]],
+                 report: Report, every: bool) -> None:
         self.requests = requests
         self.found = False
         self._resources = resources
         self._report = report
         self._every = every
 
-    def __iter__(self) -> Iterator[Tuple[GivenURI, List[Optional[bool]]]]:
+    def __iter__(self) -> Iterator[Tuple[GivenURI, Verdicts]]:
         undecided = []
-        for resource in self._resources:
-            verdicts: List[Optional[bool]] = []
-            for request in self.requests:
-                try:
-                    verdicts.append(is_compatible(request.uri, resource.uri))
-                except PatternTooComplex as error:
-                    undecided.append((request, resource, error))
-                    verdicts.append(None)
-            matched = True in verdicts
-            self.found = self.found or matched
-            if matched or self._every:
-                yield resource, verdicts
-        for request, resource, too_complex in undecided:
-            problem = 'undecided for request %s: %s' % (quoted(request.text), too_complex.problem)
-            self._report.bad_uri(
-                PatternTooComplex(problem, resource.text, 'name', resource.uri.name.string,
-                                  advice=too_complex.advice), resource.file, resource.line)
+        nothing: Verdicts = [False] * len(self.requests)
+        for batch in self._resources:
+            verdicts = self._verdicts(batch)
+            with beside_progress():
+                for resource in batch:
+                    found = verdicts.get(resource.uri, nothing)
+                    if True in found or self._every:
+                        yield resource, found
+                    if None in found:
+                        undecided.append((resource, found))
+        for resource, found in undecided:
+            for request, verdict in zip(self.requests, found):
+                if verdict is None:
+                    self._report.bad_uri(_undecided(request, resource), resource.file,
+                                         resource.line)
+
+    def _verdicts(self, resources: List[GivenURI]) -> Dict[RoconURI, Verdicts]:
+        """What is said of resources, but not of those that no request may be compatible with."""
+        index = ResourceIndex(resource.uri for resource in resources)
+        verdicts: Dict[RoconURI, Verdicts] = {}
+
+        def note(uri: RoconURI, place: int, verdict: Optional[bool]) -> None:
+            verdicts.setdefault(uri, [False] * len(self.requests))[place] = verdict
+        for place, request in enumerate(self.requests):
+            try:
+                for uri in index.find(request.uri):
+                    note(uri, place, True)
+                    self.found = True
+            except PatternTooComplex as error:
+                for uri in error.undecided:
+                    note(uri, place, None)
+        return verdicts
+
+
+def _undecided(request: GivenURI, resource: GivenURI) -> PatternTooComplex:
+    return PatternTooComplex(
+        'undecided for request %s: name patterns %s and %s are too complex to compare' % tuple(map(
+            quoted, (request.text, request.uri.name.string, resource.uri.name.string))),
+        resource.text, 'name', resource.uri.name.string,
+        advice='use simpler ones, without large counts')
 
 
 def _print_pairs(matches: Matches) -> None:

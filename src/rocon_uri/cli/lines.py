@@ -1,0 +1,44 @@
+"""The lines of a file or of standard input, as many at once as there are."""
+from __future__ import annotations
+
+import os
+import stat
+
+from rocon_uri.cli.progress import progress
+from rocon_uri.grammar import TEXT_LIMIT
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Iterator, List
+
+__all__ = ['read_lines']
+
+_BATCH = 1 << 20    # bytes
+
+
+def read_lines(path: str) -> Iterator[List[str]]:
+    """
+    Read lines, with a bar on a terminal if they are many.
+
+    Of a line that is longer than any URI, there may be no more than the start.
+
+    :param str path: the file, ``-`` for standard input
+    :returns: iterator of lists of str, each of the lines that can be had without waiting, but of
+        no more than a few megabytes; bytes that are no text are surrogates
+    :raises OSError: if it cannot be read
+    """
+    with open(0 if path == '-' else path, 'rb', closefd=path != '-') as file:
+        status = os.fstat(file.fileno())
+        with progress(status.st_size if stat.S_ISREG(status.st_mode) else None) as bar:
+            encoding, read, rest = 'utf-8-sig', True, b''
+            while read:
+                octets = file.read1(_BATCH)
+                bar.update(len(octets))
+                read = bool(octets)
+                whole, newline, rest = (rest + octets).rpartition(b'\n')
+                if not read:
+                    whole, rest = rest, b''
+                rest = rest[:TEXT_LIMIT + 2]
+                if whole or newline:
+                    yield whole.decode(encoding, 'surrogateescape').split('\n')
+                    encoding = 'utf-8'

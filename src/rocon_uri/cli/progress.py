@@ -1,0 +1,53 @@
+"""A bar on the terminal, for files that take a while; without tqdm there is none."""
+from __future__ import annotations
+
+import sys
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Optional
+
+__all__ = ['beside_progress', 'progress']
+
+_SMALL = 1 << 20    # bytes; such a file is read before anybody could see a bar
+
+
+class _NoBar:
+    """What stands in for a bar, and for its absence."""
+
+    def __enter__(self) -> _NoBar:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        pass
+
+    def update(self, read: int) -> None:
+        """So many more bytes have been read."""
+
+
+def progress(size: Optional[int]) -> Any:
+    """
+    Show how far a file has been read, on stderr if that is a terminal.
+
+    :param size: int, bytes in all; None if it is not known
+    :returns: context manager, whose value has a method ``update`` to be called with the number of
+        bytes just read
+    """
+    if sys.stderr.isatty() and (size is None or size > _SMALL):
+        try:
+            from tqdm import tqdm       # here, since few calls need it
+        except ImportError:
+            pass
+        else:
+            return tqdm(total=size, unit='B', unit_scale=True, leave=False)
+    return _NoBar()
+
+
+def beside_progress() -> Any:
+    """
+    Take the bar away while something else is printed.
+
+    :returns: context manager
+    """
+    tqdm = sys.modules.get('tqdm')
+    return tqdm.tqdm.external_write_mode(file=sys.stderr) if tqdm else _NoBar()
