@@ -14,7 +14,7 @@ from rocon_uri.compatibility import is_compatible
 from rocon_uri.exceptions import PatternTooComplex, quoted
 from rocon_uri.field import UnregisteredValue
 from rocon_uri.name_index import NameIndex
-from rocon_uri.uri import RoconURI, aligned, parse
+from rocon_uri.uri import RoconURI, aligned, parse, with_any_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -158,7 +158,7 @@ class ResourceIndex(Resources):
     def _matches(self, request: RoconURI, undecided: Dict[int, RoconURI]
                  ) -> Iterator[Tuple[Dict[int, RoconURI], Collection[int]]]:
         """For each kind that meets the request, its resources, and which of them match."""
-        asked = request.replace(name='*')
+        asked = with_any_name(request)
         verdicts = _Verdicts(request.name.pattern)
         for kind in self._kinds.values():
             resources = kind.resources
@@ -229,7 +229,7 @@ class _Kind:
     __slots__ = ('uri', 'resources', '_names', '_patterned')
 
     def __init__(self, uri: RoconURI) -> None:
-        self.uri = uri.replace(name='*', rocon_app='')      # all that are of this kind
+        self.uri = with_any_name(uri)       # all that are of this kind
         self.resources: Dict[int, RoconURI] = {}
         self._names = NameIndex(self.resources)
         self._patterned: Dict[NamePattern, Set[int]] = {}
