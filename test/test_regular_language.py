@@ -1,0 +1,498 @@
+"""
+Regular languages over ROS names: the syntax, what it matches, how two patterns relate, the limits.
+
+What is right is said by `re` for single names and by trying all short names for languages. Cost is
+counted in steps, never in seconds.
+"""
+from __future__ import annotations
+
+import itertools
+import random
+import re
+import threading
+import tracemalloc
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from rocon_uri import regular_language
+from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
+from rocon_uri.regular_language import Language
+from rocon_uri.regular_product import WORK_LIMIT, Product, common_name, difference, includes
+from rocon_uri.regular_syntax import COUNT_LIMIT, DEPTH_LIMIT, SIZE_LIMIT, parse
+from rocon_uri.ros_names import is_legal_base_name
+
+PATTERNS = 300              # patterns that are compared with re, and names that each is tried on
+NAMES_PER_PATTERN = 100
+
+
+def language(text: str) -> Language:
+    return Language(text, parse(text))
+
+
+def admits_names(text: str) -> bool:
+    try:
+        parse(text)
+    except RoconURIValueError as error:
+        assert 'admits no name' in error.problem
+        return False
+    return True
+
+
+@st.composite
+def pieces(draw, atoms, inner):
+    atom = draw(st.one_of(atoms, atoms, inner.map('({})'.format), inner.map('(?:{})'.format)))
+    return atom + draw(st.sampled_from(['', '', '', '*', '+', '?', '{2}', '{0}', '{1,}', '{0,2}',
+                                        '{2,3}']))
+
+
+def patterns(atoms):
+    """Texts over the whole syntax; each `|` is in a group."""
+    def branch(inner):
+        return st.lists(pieces(atoms, inner), max_size=4).map(''.join)
+
+    def branches(inner):
+        return st.lists(branch(inner), min_size=1, max_size=3).map('|'.join)
+
+    inside = st.recursive(atoms, branches, max_leaves=4)
+    anchored = st.tuples(st.sampled_from(['', '', '^']), branch(inside),
+                         st.sampled_from(['', '', '$']))
+    return anchored.map(''.join)
+
+
+ALL_ATOMS = st.sampled_from(['a', 'b', 'A', '0', '_', '.', r'\d', r'\D', r'\w', r'\W', '[ab]',
+                             '[^a]', '[a-c0-1]', r'[^\w]', r'[\d_]', r'[^\Db]', '[A-Z]', 'bob'])
+SMALL_ATOMS = st.sampled_from(['a', 'b', '0', '.', '[ab]', '[^a]', r'\d', 'ab', 'aa'])
+
+SHORT_NAMES = [first + ''.join(rest) for length in range(5) for first in 'abX'
+               for rest in itertools.product('abX0', repeat=length)]
+
+
+# -- what a pattern matches ----------------------------------------------------------------------
+
+@settings(max_examples=PATTERNS, deadline=None, suppress_health_check=list(HealthCheck))
+@given(patterns(ALL_ATOMS), st.integers(0, 1 << 32))
+def test_agrees_with_re_on_30000_pairs(text, seed):
+    rng = random.Random(seed)
+    matches = language(text).matches if admits_names(text) else lambda name: False
+    expected = re.compile(text, re.ASCII)
+    for _ in range(NAMES_PER_PATTERN):
+        name = rng.choice('abcAB') + ''.join(rng.choices('aabbc0A_', k=rng.randrange(7)))
+        assert matches(name) == bool(expected.fullmatch(name)), (text, name)
+
+
+@pytest.mark.parametrize('text, names, others', [
+    ('dud.*', ['dud', 'dude'], ['du', 'adud']),
+    ('^bob\\w*$', ['bob', 'bob_7'], ['abob']),
+    ('b[^o]b', ['bab', 'b_b'], ['bob', 'b-b', 'böb']),
+    ('(bob|alice)_\\d{2}', ['bob_01', 'alice_99'], ['bob_1', 'carol_01', 'bob_001']),
+    ('(bob|)x', ['bobx', 'x'], ['bob', '']),
+    ('[0-9]?a', ['a'], ['0a']),
+    ('.*', ['a', 'A_9', 'x' * 1000], ['', '9', '_a', 'a b', 'a\n', 'ä', 'a/b']),
+])
+def test_matches_whole_legal_names_only(text, names, others):
+    found = language(text)
+    assert [name for name in names + others if found.matches(name)] == names
+
+
+@pytest.mark.parametrize('text, equal', [
+    ('a|b'.join('()'), '[ab]'), ('(a|b|a)c', '[ab]c'), ('((a))', 'a'), ('(a*)*b', 'a*b'),
+    ('((a?){3}){2,}', 'a*'), ('(a+)*', 'a*'), ('aa*', 'a+'), ('a*a', 'a+'), ('(bc|bc)', 'bc'),
+    ('(a|)', 'a?'), ('(a*|)', 'a*'), ('a{1}', 'a'), ('a\\W?', 'a'), ('(a|b\\W)', 'a'),
+    ('a(x{3}){0}', 'a'), ('(a{2}){3}', 'a{6}'), ('a(b(c|d))', 'ab[cd]'), ('[a-z]*' * 40, '[a-z]*'),
+    ('(?:ab)', '(ab)'), ('^a$', 'a'), ('(a|(b|cc))', '([ab]|cc)'),
+])
+def test_the_syntax_tree_is_normal(text, equal):
+    assert parse(text) == parse(equal)
+    assert hash(parse(text)) == hash(parse(equal))
+
+
+@pytest.mark.parametrize('text, other', [
+    ('ab', '(a|b)'), ('(ab)?', 'ab'), ('a{2,3}', 'a{2,}'), ('(a{2}){0,3}', 'a{0,6}'),
+    ('(a{2,}){2,3}', 'a{4,5}'), ('(aa|b)c', '(aa|d)c'),
+])
+def test_different_languages_have_different_trees(text, other):
+    assert parse(text) != parse(other)
+
+
+# -- what is refused -----------------------------------------------------------------------------
+
+NOT_IN_NAMES = "cannot stand in a ROS name, which has only letters, digits and '_'"
+WHOLE = 'leave it out: a pattern covers the whole name'
+COUNT_FORMS = "write '{m}', '{m,}' or '{m,n}'"
+REFUSED = [
+    # text, where, what is wrong, what to do
+    ('a(?=b)', (1, 4), "look-ahead '(?=' is not supported", 'write out the names'),
+    ('a(?!b)', (1, 4), "look-ahead '(?!' is not supported", 'write out the names'),
+    ('a(?<=b)', (1, 5), "look-behind '(?<=' is not supported", 'write out the names'),
+    ('a(?<!b)', (1, 5), "look-behind '(?<!' is not supported", 'write out the names'),
+    ('(a)(?P=n)', (3, 7), "back-reference '(?P=' is not supported", 'write the group out again'),
+    ('(?P<n>a)', (0, 4), "named group '(?P<' is not supported", "write '(' alone"),
+    ('(?<n>a)', (0, 3), "named group '(?<' is not supported", "write '(' alone"),
+    ('(?>a)', (0, 3), "atomic group '(?>' is not supported", "write '(' alone"),
+    ('a(?#b)', (1, 4), "comment '(?#' is not supported", 'leave it out'),
+    ('(a)(?(1)b|c)', (3, 6), "conditional group '(?(' is not supported", "'(ab|c)'"),
+    ('(?i)bob', (0, 4), "flag '(?i)' is not supported", "'[Bb]ob'"),
+    ('a(?s-i:b)', (1, 7), "flag '(?s-i:' is not supported", "'[Bb]ob'"),
+    ('(?', (0, 2), "group '(?' is not supported", "write '(' or '(?:'"),
+    ('(?+a)', (0, 2), "group '(?' is not supported", "write '(' or '(?:'"),
+    ('(a)\\12', (3, 6), "back-reference '\\12' is not supported", 'write the group out again'),
+    ('a\\b', (1, 3), "anchor '\\b' is not supported", WHOLE),
+    ('\\Aa', (0, 2), "anchor '\\A' is not supported", WHOLE),
+    ('a\\Z', (1, 3), "anchor '\\Z' is not supported", WHOLE),
+    ('a\\s', (1, 3), "escape '\\s' is not supported", "'\\d', '\\D', '\\w' and '\\W'"),
+    ('a\\.', (1, 3), "escape '\\.' is not supported", "'\\d', '\\D', '\\w' and '\\W'"),
+    ('a\\x41', (1, 3), "escape '\\x' is not supported", "'\\d', '\\D', '\\w' and '\\W'"),
+    ('[\\n]', (1, 3), "escape '\\n' is not supported", "'\\d', '\\D', '\\w' and '\\W'"),
+    ('a\\', (1, 2), "'\\' escapes nothing", ''),
+    ('a$b', (1, 2), "anchor '$' is only for the end", WHOLE),
+    ('a^b', (1, 2), "anchor '^' is only for the start", WHOLE),
+    ('^^a', (1, 2), "anchor '^' is only for the start", WHOLE),
+    ('a$$', (1, 2), "anchor '$' is only for the end", WHOLE),
+    ('(^a)', (1, 2), "anchor '^' is only for the start", WHOLE),
+    ('(a$)', (2, 3), "anchor '$' is only for the end", WHOLE),
+    ('a*?b', (1, 3), "lazy quantifier '*?' is not supported", "leave out the '?'"),
+    ('a{2}?', (1, 5), "lazy quantifier '{2}?' is not supported", "leave out the '?'"),
+    ('a?+', (1, 3), "possessive quantifier '?+' is not supported", "leave out the '+'"),
+    ('(a)**', (3, 5), "quantifier after a quantifier '**'", "in a group, as in '(a*)*'"),
+    ('a{2}{3}', (1, 5), "quantifier after a quantifier '{2}{'", "in a group, as in '(a*)*'"),
+    ('+a', (0, 1), "quantifier '+' has nothing to repeat", "write '.+'"),
+    ('^*a', (1, 2), "quantifier '*' has nothing to repeat", "write '.*'"),
+    ('(?:*a)', (3, 4), "quantifier '*' has nothing to repeat", "write '.*'"),
+    ('(a|?)', (3, 4), "quantifier '?' has nothing to repeat", ''),
+    ('{2}a', (0, 1), "quantifier '{' has nothing to repeat", ''),
+    ('a{,3}', (1, 5), "count '{,3}' has no least number", "write '{0,3}'"),
+    ('a{}', (1, 3), "count '{}' has no least number", COUNT_FORMS),
+    ('a{,}', (1, 4), "count '{,}' has no least number", COUNT_FORMS),
+    ('a{2', (1, 2), "'{' starts no count", COUNT_FORMS),
+    ('a{2 }', (1, 2), "'{' starts no count", COUNT_FORMS),
+    ('a{x}', (1, 2), "'{' starts no count", COUNT_FORMS),
+    ('a{²}', (1, 2), "'{' starts no count", COUNT_FORMS),
+    ('a{3,2}', (1, 6), "count '{3,2}' is out of order", "write '{2,3}'"),
+    ('a}', (1, 2), "'}' " + NOT_IN_NAMES, ''),
+    ('[A-z]', (1, 4), "range 'A-z' is not of two digits", "write '[A-Za-z]'"),
+    ('[a-Z]', (1, 4), "range 'a-Z' is not of two digits", "write '[A-Za-z]'"),
+    ('[0-a]', (1, 4), "range '0-a' is not of two digits", ''),
+    ('[_-a]', (1, 4), "range '_-a' is not of two digits", ''),
+    ('[z-a]', (1, 4), "range 'z-a' is out of order", "write 'a-z'"),
+    ('[]', (0, 2), "class '[]' is empty", ''),
+    ('[^]', (0, 3), "class '[^]' is empty", ''),
+    ('a[', (1, 2), "'[' is not closed", ''),
+    ('a[b$', (1, 2), "'[' is not closed", ''),
+    ('[a-]', (2, 3), "'-' " + NOT_IN_NAMES, "as in '[a-z]'"),
+    ('[a-', (2, 3), "'-' " + NOT_IN_NAMES, "as in '[a-z]'"),
+    ('[-a]', (1, 2), "'-' " + NOT_IN_NAMES, "as in '[a-z]'"),
+    ('[\\d-z]', (3, 4), "'-' " + NOT_IN_NAMES, "as in '[a-z]'"),
+    ('[a-\\d]', (2, 3), "'-' " + NOT_IN_NAMES, "as in '[a-z]'"),
+    ('[[:alpha:]]', (1, 2), "'[' " + NOT_IN_NAMES, 'a class holds characters, ranges'),
+    ('[a^]', (2, 3), "'^' " + NOT_IN_NAMES, ''),
+    ('[a.]', (2, 3), "'.' " + NOT_IN_NAMES, ''),
+    ('a]', (1, 2), "']' " + NOT_IN_NAMES, ''),
+    ('bob-1', (3, 4), "'-' " + NOT_IN_NAMES, ''),
+    ('bób', (1, 2), "'ó' " + NOT_IN_NAMES, ''),
+    ('a b', (1, 2), "' ' " + NOT_IN_NAMES, ''),
+    ('a\nb+', (1, 2), "'\\n' " + NOT_IN_NAMES, ''),
+    ('a/b', (1, 2), "'/' " + NOT_IN_NAMES, ''),
+    ('٣+', (0, 1), "'٣' " + NOT_IN_NAMES, ''),
+    ('bob|alice', (3, 4), "the or operator '|' is not for the name", "write '(bob|alice)'"),
+    ('^a+|b$', (3, 4), "the or operator '|' is not for the name", "write '(a+|b)'"),
+    ('(a', (0, 1), "'(' is not closed", ''),
+    ('(a(b)', (0, 1), "'(' is not closed", ''),
+    ('a)', (1, 2), "')' closes no group", ''),
+    ('[0-9]+', (0, 6), "'[0-9]+' admits no name: a ROS name starts with a letter", ''),
+    ('_?_', (0, 3), "'_?_' admits no name: a ROS name starts with a letter", ''),
+    ('(3|4)?(_|5)bob', (0, 14), 'a ROS name starts with a letter', ''),
+    ('()', (0, 2), "'()' admits no name: a ROS name has at least one character", ''),
+    ('', (0, 0), "'' admits no name: a ROS name has at least one character", ''),
+    ('^$', (0, 2), "'^$' admits no name: a ROS name has at least one character", ''),
+    ('a{0}', (0, 4), "'a{0}' admits no name: a ROS name has at least one character", ''),
+    ('bob\\W', (0, 5), 'admits no name: it asks for a character that is not in ROS names', ''),
+    ('[^\\w]', (0, 5), 'admits no name: it asks for a character that is not in ROS names', ''),
+]
+
+
+@pytest.mark.parametrize('text, span, problem, advice', REFUSED, ids=[row[0] for row in REFUSED])
+def test_refused_with_place_and_advice(text, span, problem, advice):
+    with pytest.raises(RoconURIValueError) as caught:
+        parse(text)
+    error = caught.value
+    assert (error.uri, error.field, error.value, error.span) == (text, 'name', text, span)
+    assert problem in error.problem
+    assert advice in error.advice and bool(advice) == bool(error.advice)
+    assert '\n' not in str(error)
+
+
+@pytest.mark.parametrize('at, over, problem', [
+    ('(' * DEPTH_LIMIT + 'a' + ')' * DEPTH_LIMIT, '(' * 33 + 'a' + ')' * 33,
+     'groups are at most 32 deep'),
+    ('a{%d}' % COUNT_LIMIT, 'a{256}', "count '{256}' is too large: at most 255"),
+    ('a{1,255}', 'a{1,256}', "count '{1,256}' is too large: at most 255"),
+    ('a{255,}', 'a{256,}', "count '{256,}' is too large: at most 255"),
+    ('(a{64}){64}', '(a{64}){64}a', 'more than 4096 atoms'),
+    ('((ab?){32}){0,64}', '((ab?){32}){0,64}(a|)', 'more than 4096 atoms'),
+    ('(a{128,}){32}', '(a{128,}){32}b?', 'more than 4096 atoms'),
+    ('(a*){255}' * 16 + 'a{16}', '(a*){255}' * 16 + 'a{17}', 'more than 4096 atoms'),
+])
+def test_limits_are_exact_and_named(at, over, problem):
+    assert parse(at).size <= SIZE_LIMIT
+    with pytest.raises(RoconURIValueError, match=re.escape(problem)):
+        parse(over)
+
+
+def test_too_many_atoms_are_refused_even_if_they_come_to_nothing():
+    with pytest.raises(RoconURIValueError, match='more than 4096 atoms'):
+        parse('a((b{250}){250}){0}')
+
+
+@settings(max_examples=500, deadline=None)
+@given(st.text(alphabet='ab0_(((()))?:*+{}[]^-\\dDwW|.$,19=!<P ä\n', max_size=60))
+def test_any_text_is_read_or_refused_with_a_place_in_it(text):
+    try:
+        parse(text)
+    except RoconURIValueError as error:
+        assert 0 <= error.span[0] <= error.span[1] <= len(text)
+        assert error.uri == error.value == text and error.field == 'name'
+
+
+# -- how two patterns relate ---------------------------------------------------------------------
+
+def short_names(found: Language) -> set:
+    return {name for name in SHORT_NAMES if found.matches(name)}
+
+
+readable = patterns(SMALL_ATOMS).filter(admits_names).map(language)
+
+
+@settings(max_examples=250, deadline=None, suppress_health_check=list(HealthCheck))
+@given(readable, readable)
+def test_common_name_and_difference_agree_with_trying_all_short_names(one, other):
+    ours, theirs = short_names(one), short_names(other)
+    shared = common_name(one, other)
+    assert shared is None or one.matches(shared) and other.matches(shared)
+    assert len(shared or 'x' * 99) <= min(map(len, ours & theirs), default=99)
+    only = difference(one, other)
+    assert only is None or one.matches(only) and not other.matches(only)
+    assert only is not None or ours <= theirs
+    assert includes(other, one) == (only is None)
+
+
+@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
+@given(readable)
+def test_example_is_a_shortest_name(found):
+    example = found.example()
+    assert found.matches(example)
+    assert len(example) <= min(map(len, short_names(found)), default=99)
+
+
+def relation(one: Language, other: Language) -> str:
+    sub, sup = includes(other, one), includes(one, other)
+    if sub or sup:
+        return 'equal' if sub and sup else 'subset' if sub else 'superset'
+    return 'disjoint' if common_name(one, other) is None else 'overlap'
+
+
+MIRROR = {'equal': 'equal', 'subset': 'superset', 'superset': 'subset', 'overlap': 'overlap',
+          'disjoint': 'disjoint'}
+
+
+@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
+@given(readable, readable)
+def test_relation_has_a_mirror(one, other):
+    assert relation(other, one) == MIRROR[relation(one, other)]
+    assert common_name(one, other) == common_name(other, one)
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@given(st.lists(readable, min_size=3, max_size=3), readable)
+def test_inclusion_is_an_order(languages, other):
+    a, b, c = languages
+    # Choices make it likely that there is something to include.
+    ab = language('((%s)|(%s))' % (a.text.strip('^$'), b.text.strip('^$')))
+    abc = language('((%s)|(%s))' % (ab.text, c.text.strip('^$')))
+    assert includes(ab, a) and includes(abc, ab) and includes(abc, a)
+    for x, y in ((a, b), (b, c), (ab, c)):
+        if includes(y, x):
+            assert not includes(other, y) or includes(other, x)
+
+
+@pytest.mark.parametrize('one, other, expected', [
+    ('(ab)*a', 'a(ba)*', 'equal'), ('[a-z]+', '[a-z][a-z0-9]*', 'subset'), ('.*', '\\w+', 'equal'),
+    ('(a|b)*a(a|b)', '[ab]*(aa|ab)', 'equal'), ('(a|b)*a[ab]{30}', '(b*a)+(a|b){30}', 'equal'),
+    ('[a-m]+', '[k-z]+', 'overlap'), ('(aa)+', 'a(aa)*', 'disjoint'), ('a{3,}', '(aaa|a{5})a*',
+                                                                       'equal'),
+    ('\\D+', '[^0-9]{1,}', 'equal'), ('bob_\\d', 'bob_[^a-z]', 'subset'), ('a?b', 'b', 'superset'),
+])
+def test_relation_of_two_patterns(one, other, expected):
+    assert relation(language(one), language(other)) == expected
+
+
+@pytest.mark.parametrize('one, other, shared, only', [
+    ('[a-e]+', '.*[d-z]{2}', 'dd', 'a'), ('.*', '.*', 'a', None),
+    ('[B-Z].', '.\\W?\\d', 'B0', 'Ba'),
+    ('a*b', 'b*a', None, 'b'), ('.{3}', 'a.*|b.*'.join('()'), 'aaa', 'caa'),
+])
+def test_examples_are_shortest_and_prefer_lower_case(one, other, shared, only):
+    assert common_name(language(one), language(other)) == shared
+    assert difference(language(one), language(other)) == only
+
+
+# -- what it costs -------------------------------------------------------------------------------
+
+HOSTILE = [
+    # text, and which limit it passes
+    ('(a|aa)+b', None), ('(a*)*b', None), ('(x+x+)+y', None), ('(a|b)*a(a|b){20}', None),
+    ('(a|b)*a(a|b){200}', None), ('([a-z]+)*[0-9]{200}', None), ('(.*a.*b.*c)*d', None),
+    ('[a-z]*' * 42, None), ('((a?b?){60}){34}', None), ('(([a-z]?){63}){65}', None),
+    ('(.{1,255}a){16}', None), ('.*(a|b)*a(a|b){250}', None), ('((.{1,15}a){16}){16}', None),
+    ('(' + '|'.join('.' * count for count in range(1, 14)) + '){45}', None),
+    ('(' + '|'.join('.' * count + 'a?' for count in range(1, 17)) + '){25}', None),
+    ('((.*[a-z].?){64}){21}', None), ('([a-m].{250}|[n-z].{200}|.*)*', None),
+    ('((a?){250}){250}', 'atoms'), ('(' * 255, 'deep'), ('(' * 85 + 'a' + ')' * 85, 'deep'),
+    ('(a{256})+', 'count'),
+]
+ACCEPTED = [text for text, limit in HOSTILE if limit is None]
+
+
+@pytest.mark.parametrize('text, limit', [row for row in HOSTILE if row[1]])
+def test_a_hostile_pattern_is_refused_for_the_limit_that_it_passes(text, limit):
+    with pytest.raises(RoconURIValueError, match=limit):
+        parse(text)
+
+
+@pytest.mark.parametrize('text', ACCEPTED)
+def test_a_match_takes_one_derivative_for_each_character_and_the_next_one_none(text):
+    found = language(text)
+    rng = random.Random(7)
+    for alphabet in ('a', 'ab', 'xy', 'abcdefghijklmnopqrstuvwxyz0123456789_'):
+        name = 'a' + ''.join(rng.choices(alphabet, k=254))
+        before = found.work
+        first = found.matches(name)
+        assert found.work - before <= 255 * (1 + (found.tree.size + 4) // 4)
+        before = found.work
+        assert found.matches(name) == first
+        assert found.work == before
+
+
+def compare(one: str, other: str) -> None:
+    """Every question about two patterns, each within the work that is allowed."""
+    first, second = language(one), language(other)
+    for left, right, question in ((first, second, Product.common),
+                                  (first, second, Product.difference),
+                                  (second, first, Product.difference)):
+        product = Product(left, right)
+        try:
+            question(product)
+        except PatternTooComplex as error:
+            assert (error.field, error.value) == ('name', left.text)
+            assert 'too complex to compare' in str(error)
+            assert product.work <= WORK_LIMIT * 1.01    # that of the step which passed the limit
+        else:
+            assert product.work <= WORK_LIMIT
+
+
+@pytest.mark.parametrize('one, other', list(itertools.combinations(ACCEPTED, 2))[::4])
+def test_comparing_ends_within_the_work_that_is_allowed(one, other):
+    compare(one, other)
+
+
+@pytest.mark.parametrize('one, other', [
+    ('(.{1,255}a){16}', '((.{1,15}a){16}){16}'), ('((.*[a-z].?){64}){21}', '(x+x+)+y'),
+    ('(.{1,255}a){16}', '(.*a.*b.*c)*d'), ('.*(a|b)*a(a|b){250}', '([a-m].{250}|[n-z].{200}|.*)*'),
+])
+def test_comparing_takes_at_most_20_megabytes(one, other):
+    tracemalloc.start()
+    try:
+        compare(one, other)
+        assert tracemalloc.get_traced_memory()[1] < 20e6
+    finally:
+        tracemalloc.stop()
+
+
+def test_too_complex_to_compare_is_said_so():
+    one, other = language('((.*[a-z].?){64}){21}'), language('(.{1,255}a){16}')
+    for question in (common_name, difference, includes):
+        with pytest.raises(PatternTooComplex):
+            question(one, other)
+    assert one.matches('ab') == other.matches('ab') is False
+
+
+def test_a_simple_question_about_a_hard_pattern_is_answered():
+    hard = language('(a|b)*a(a|b){200}')
+    assert includes(language('[a-z]+'), hard) and not includes(hard, language('[a-z]+'))
+    assert common_name(hard, language('.*c.*')) is None
+    assert difference(hard, language('b.*')) == 'a' * 201
+
+
+def test_the_memo_of_a_language_is_bounded():
+    found = language('.*a.{200}')
+    rng = random.Random(3)
+    tracemalloc.start()
+    try:
+        for _ in range(20):
+            found.matches(''.join(rng.choices('abc', k=255)))
+        found.matches(''.join(rng.choices('ab', k=5000)))
+        assert tracemalloc.get_traced_memory()[0] < 2e6
+    finally:
+        tracemalloc.stop()
+
+
+def test_the_next_match_is_free_however_full_the_memo_is():
+    found = language('.*a.{200}')
+    rng = random.Random(5)
+    for _ in range(20):
+        name = ''.join(rng.choices('abc', k=255))
+        before = found.work
+        first = found.matches(name)
+        assert found.work > before
+        before = found.work
+        assert found.matches(name) == first == (name[54] == 'a')
+        assert found.work == before
+
+
+def test_the_largest_language_takes_less_than_8_megabytes():
+    name = ''.join(random.Random(9).choices('abc', k=255))
+    tracemalloc.start()
+    try:
+        found = language('(.{1,255}a){16}')
+        found.matches(name)
+        assert tracemalloc.get_traced_memory()[1] < 8e6
+    finally:
+        tracemalloc.stop()
+
+
+def test_languages_are_remembered_as_long_as_there_is_room():
+    used = regular_language.language('[a-z]x', parse)
+    large = []
+    for start in 'abcdefghij':
+        large.append(regular_language.language('%s((a?b?){60}){34}' % start, parse))
+        assert regular_language.language('[a-z]x', parse) is used
+    assert regular_language.language(large[-1].text, parse) is large[-1]
+    assert regular_language.language(large[0].text, parse) is not large[0]
+
+
+def test_threads_get_right_answers_from_one_language():
+    found = language('.*a[ab]{12}')
+    rng = random.Random(11)
+    names = ['a' + ''.join(rng.choices('ab', k=40)) for _ in range(300)]
+    expected = [name[-13] == 'a' for name in names]
+    wrong, ready = [], threading.Barrier(16)
+
+    def match_all() -> None:
+        ready.wait()
+        for _ in range(3):
+            if [found.matches(name) for name in names] != expected:
+                wrong.append(threading.current_thread().name)
+
+    threads = [threading.Thread(target=match_all) for _ in range(16)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_only_legal_names_are_matched_by_anything():
+    anything = language('.*')
+    for name in ('a', 'a_', 'Z9', '', '_', '9', 'a-b', 'é', 'a\x00', '~a', '/a', 'a' * 300):
+        assert anything.matches(name) == is_legal_base_name(name)
