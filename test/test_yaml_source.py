@@ -16,7 +16,8 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rocon_uri.yaml_source import (
-    MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, load, load_file, located)
+    MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, load, load_file, located,
+    read_file)
 
 ROOT = Path(__file__).resolve().parents[1]
 CAMERA = str(ROOT / 'test/unit/specs/interfaces/RGBCamera.yaml')
@@ -320,6 +321,20 @@ def test_merges_count_too():
     assert 'aliases add more than 1 MiB' in error_of(nested)
 
 
+def test_keys_that_are_no_text_are_few_since_their_hashes_can_be_chosen():
+    def colliding(first, count):    # all of them have the hash 0
+        return ', '.join('%d: 1' % (i * (2 ** 61 - 1)) for i in range(first, first + count))
+
+    assert len(load('{%s}' % colliding(0, 100))) == 100
+    assert error_of('\n{%s}' % colliding(0, 10000)).endswith(
+        ': more than 100 keys that are not text')
+    assert error_of('[{a: 1, <<: [{%s}, {%s}]}]' % (colliding(0, 60), colliding(60, 60))) == (
+        'f:1:2: more than 100 keys that are not text')
+    assert error_of('[&a 1, {%s}]' % ('*a : 1, ' * 101)) == (
+        'f:1:809: more than 100 keys that are not text')
+    assert len(load('{%s}' % ', '.join('k%d: 1' % i for i in range(1000)))) == 1000
+
+
 def test_an_alias_gives_the_same_object():
     data = load('- &a [x]\n- *a')
     assert data[0] is data[1]
@@ -386,6 +401,22 @@ def test_what_is_not_a_file_that_can_be_read(make, tmp_path):
     with pytest.raises(OSError) as raised:
         load_file(path)
     assert str(path) in str(raised.value)
+
+
+@pytest.mark.skipif(not os.path.exists('/proc/self/limits'), reason='there is no /proc')
+def test_a_file_may_hold_more_than_its_size_says():
+    with open('/proc/self/limits', 'rb') as file:
+        content = file.read()
+    assert os.stat('/proc/self/limits').st_size == 0
+    assert read_file('/proc/self/limits') == content
+
+
+@pytest.mark.parametrize('size', [0, 1, MAX_SIZE - 1, MAX_SIZE])
+def test_a_file_is_read_whole_if_it_is_not_too_large(size, tmp_path):
+    (tmp_path / 'file').write_bytes(b'x' * size)
+    assert read_file(tmp_path / 'file') == b'x' * size
+    (tmp_path / 'file').write_bytes(b'x' * (size + MAX_SIZE))
+    assert len(read_file(tmp_path / 'file')) == (MAX_SIZE + 1 if size else MAX_SIZE)
 
 
 @pytest.mark.parametrize('path', ['a\0b', 'a\udbffb', ''])

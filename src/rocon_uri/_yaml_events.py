@@ -11,84 +11,22 @@ import yaml
 from yaml.events import (
     AliasEvent, MappingEndEvent, MappingStartEvent, ScalarEvent, SequenceEndEvent, StreamEndEvent)
 
+from rocon_uri._yaml_scalars import CORE, TAGGED, plain
 from rocon_uri.exceptions import quoted
 from rocon_uri.yaml_source import (
     MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, end_position)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Callable, Dict, List, Optional
+    from typing import Any, Callable, Dict, List, Tuple
 
 __all__ = ['Reader']
 
-_MAX_NUMBER_LENGTH = 256    # characters: converting long ones takes time that grows faster
+_MAX_OTHER_KEYS = 100       # keys of a mapping that are not text, merged ones included
 _UNFINISHED = object()      # an anchored collection, while it is being read
-_CORE = 'tag:yaml.org,2002:'
-_BOOLS = {form: value for words, value in (('yes true on', True), ('no false off', False))
-          for word in words.split() for form in (word, word.capitalize(), word.upper())}
-_NULLS = dict.fromkeys(['', '~', 'null', 'Null', 'NULL'])
-_WORDS: Dict[str, Optional[bool]] = {**_BOOLS, **_NULLS}
-_START_OF_NUMBER = frozenset('+-.0123456789')
-_integer = re.compile(
-    r'[-+]?(?:0b[01_]+|0[0-7_]+|0|[1-9][0-9_]*|0x[0-9a-fA-F_]+|[1-9][0-9_]*(?::[0-5]?[0-9])+)'
-).fullmatch
-_float = re.compile(
-    r'[-+]?[0-9][0-9_]*\.[0-9_]*(?:[eE][-+][0-9]+)?|\.[0-9][0-9_]*(?:[eE][-+][0-9]+)?'
-    r'|[-+]?[0-9][0-9_]*(?::[0-5]?[0-9])+\.[0-9_]*|[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)'
-).fullmatch
 _unreadable = re.compile(
     '[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]').search
 _unreadable_escape = re.compile('[\ud800-\udfff]').search
-
-
-def _plain(value: str) -> Any:
-    """The value of a scalar without quotes and tag; ValueError if it is a number out of reach."""
-    if value in _WORDS:
-        return _WORDS[value]
-    if value[0] in _START_OF_NUMBER:
-        if _integer(value):
-            return _to_int(value)
-        if _float(value):
-            return _to_float(value)
-    return value
-
-
-def _to_int(value: str) -> int:
-    """The value of an integer as YAML 1.1 writes them."""
-    if len(value) > _MAX_NUMBER_LENGTH or not _integer(value):
-        raise ValueError
-    digits = value.replace('_', '').lstrip('+-')
-    if ':' in digits:
-        number = 0
-        for part in digits.split(':'):
-            number = number * 60 + int(part)
-    elif digits[:2] in ('0b', '0x'):
-        number = int(digits, 0)
-    else:
-        number = int(digits, 8 if digits[0] == '0' else 10)
-    return -number if value[0] == '-' else number
-
-
-def _to_float(value: str) -> float:
-    """The value of a floating point number as YAML 1.1 writes them, or of an integer."""
-    if _integer(value):
-        return float(_to_int(value))
-    if len(value) > _MAX_NUMBER_LENGTH or not _float(value):
-        raise ValueError
-    digits = value.replace('_', '').lstrip('+-').lower()
-    number, base = 0.0, 1
-    if ':' in digits:
-        for part in reversed(digits.split(':')):
-            number += float(part) * base
-            base *= 60
-    else:
-        number = float(digits.lstrip('.') if digits[1:] in ('inf', 'nan') else digits)
-    return -number if value[0] == '-' else number
-
-
-_TAGGED: Dict[str, Callable[[str], Any]] = {
-    _CORE + 'str': str, _CORE + 'int': _to_int, _CORE + 'float': _to_float,
-    _CORE + 'bool': _BOOLS.__getitem__, _CORE + 'null': _NULLS.__getitem__}
 
 
 class Reader:
@@ -133,9 +71,10 @@ class Reader:
         """The mapping whose start event this is."""
         next_event, scalar = self.next_event, self._scalar
         mark = start.start_mark
-        mapping = YamlMapping(mark.line, mark.column)
-        positions = mapping._positions
+        positions: Dict[Any, Tuple[int, int, int, int]] = {}
+        mapping = YamlMapping(mark.line, mark.column, positions)
         merged: List[YamlMapping] = []
+        others = 0
         while True:
             event = next_event()
             if event.__class__ is ScalarEvent:
@@ -152,26 +91,32 @@ class Reader:
             if key == '<<' and event.__class__ is ScalarEvent and event.implicit[0]:
                 merged += self._merged(value, value_event)
                 continue
+            if key.__class__ is not str:
+                others += 1
+                self._check_other_keys(others, event)
             mark, value_mark = event.start_mark, value_event.start_mark
             if key in mapping:
                 mapping.repeated.append((key, mapping[key], (mark.line + 1, mark.column + 1)))
             mapping[key] = value
             positions[key] = mark.line, mark.column, value_mark.line, value_mark.column
         if merged:
-            mapping._merge(merged)
+            others += sum(key.__class__ is not str for source in merged for key in source)
+            self._check_other_keys(others, start)
+            mapping.merge(merged)
         return mapping
 
     def _sequence(self, start: Any, depth: int) -> YamlSequence:
         """The sequence whose start event this is."""
         mark = start.start_mark
-        sequence = YamlSequence(mark.line, mark.column)
+        positions: List[Tuple[int, int]] = []
+        sequence = YamlSequence(mark.line, mark.column, positions)
         while True:
             event = self.next_event()
             if event.__class__ is SequenceEndEvent:
                 return sequence
             sequence.append(self._node(event, depth))
             mark = event.start_mark
-            sequence._positions.append((mark.line, mark.column))
+            positions.append((mark.line, mark.column))
 
     def _node(self, event: Any, depth: int) -> Any:
         """The data that begins with this event, inside ``depth`` collections."""
@@ -183,7 +128,7 @@ class Reader:
             raise self._error('nested deeper than %d' % MAX_DEPTH, event)
         kind, read = (('map', self._mapping) if event.__class__ is MappingStartEvent
                       else ('seq', self._sequence))
-        if event.tag not in (None, '!', _CORE + kind):
+        if event.tag not in (None, '!', CORE + kind):
             raise self._tag_error(event)
         if event.anchor is None:
             return read(event, depth + 1)
@@ -193,16 +138,17 @@ class Reader:
 
     def _scalar(self, event: Any) -> Any:
         """The value of a scalar."""
-        plain, quoted_or_block = event.implicit
+        is_plain, is_quoted_or_block = event.implicit
         value = event.value
-        if not quoted_or_block:
-            if not plain and event.tag not in _TAGGED:
+        if not is_quoted_or_block:
+            if not is_plain and event.tag not in TAGGED:
                 raise self._tag_error(event)
             try:
-                value = _plain(value) if plain else _TAGGED[event.tag](value)
+                value = plain(value) if is_plain else TAGGED[event.tag](value)
             except (KeyError, ValueError, OverflowError):
-                raise self._error('%s cannot be read as %s' % (
-                    quoted(value), 'a number' if plain else _shown_tag(event.tag)), event) from None
+                kind = 'a number' if is_plain else _shown_tag(event.tag)
+                raise self._error('%s cannot be read as %s' % (quoted(value), kind),
+                                  event) from None
         if event.anchor is not None:
             self._open_anchor(event)
             self.anchors[event.anchor] = value
@@ -215,6 +161,11 @@ class Reader:
             if not isinstance(key, (YamlMapping, YamlSequence)):
                 return key
         raise self._error('a collection cannot be a key, text is expected', event)
+
+    def _check_other_keys(self, count: int, event: Any) -> None:
+        """Refuse more than a few numbers as keys: they can be chosen so that all have one hash."""
+        if count > _MAX_OTHER_KEYS:
+            raise self._error('more than %d keys that are not text' % _MAX_OTHER_KEYS, event)
 
     def _merged(self, value: Any, event: Any) -> List[YamlMapping]:
         """The mappings that a merge key brings, the ones that win last."""
@@ -293,4 +244,4 @@ class Reader:
 
 def _shown_tag(tag: str) -> str:
     """The tag as people write it."""
-    return '!!' + tag[len(_CORE):] if tag.startswith(_CORE) else tag
+    return '!!' + tag[len(CORE):] if tag.startswith(CORE) else tag

@@ -30,7 +30,8 @@ of ``[``.
 - A tag makes nothing: those of the core types (``!!str``, ``!!int``, ...) are read, others refused.
 - Merge keys (``<<``) are read; a mapping's own keys win over merged ones, wherever they stand.
 - A repeated key is not an error here. The last one wins, and ``YamlMapping.repeated`` lists what
-  was lost; ``1``, ``1.0`` and ``true`` are one key, as in Python. A collection as key is refused.
+  was lost; ``1``, ``1.0`` and ``true`` are one key, as in Python. A collection as key is refused,
+  and so are more than 100 keys of one mapping that are not text.
 - One document; an empty text is ``None``.
 - Text is UTF-8, or UTF-16 with a byte order mark. A lone surrogate or a control character that
   is not escaped is refused.
@@ -44,12 +45,12 @@ from rocon_uri.exceptions import near_misses, quoted
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from os import PathLike
-    from typing import Any, Dict, List, Optional, Tuple, Union
+    from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
 
     Position = Tuple[int, int]
 
-__all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'load',
-           'load_file', 'located', 'near_misses', 'quoted', 'read_file']
+__all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'did_you_mean',
+           'load', 'load_file', 'located', 'near_misses', 'quoted', 'read_file']
 
 MAX_SIZE = 2 ** 20      # bytes of a file, characters of a text, and what aliases may add
 MAX_DEPTH = 100         # collections in one another
@@ -73,6 +74,20 @@ def located(problem: str, file_name: str, line: Optional[int], column: Optional[
     """
     place = file_name if line is None else '%s:%s:%s' % (file_name, line, column)
     return ''.join(c if c.isprintable() else repr(c)[1:-1] for c in '%s: %s' % (place, problem))
+
+
+def did_you_mean(suggestions: Iterable[str]) -> str:
+    """
+    The end of an error that knows what was probably meant.
+
+    :param suggestions: iterable of str, the likeliest first
+    :returns: str, empty if there are none
+
+    >>> did_you_mean(['a_package/RGBCamera'])
+    " (did you mean 'a_package/RGBCamera'?)"
+    """
+    meant = ' or '.join(map(quoted, suggestions))
+    return ' (did you mean %s?)' % meant if meant else ''
 
 
 class YamlError(ValueError):
@@ -111,10 +126,12 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # dict[...] is not to be
 
     __slots__ = ('_start', '_positions', 'repeated')
 
-    def __init__(self, line: int, column: int) -> None:
+    def __init__(self, line: int, column: int,
+                 positions: Optional[Dict[Any, Tuple[int, int, int, int]]] = None) -> None:
         super().__init__()
+        # Counted from 0, as the parser does, since few of them are ever asked for.
         self._start = line, column
-        self._positions: Dict[Any, Tuple[int, int, int, int]] = {}
+        self._positions = {} if positions is None else positions
         #: What was lost to a repeated key: a list of (key, its earlier value, position of the
         #: repetition), empty as a rule.
         self.repeated: List[Tuple[Any, Any, Position]] = []
@@ -152,8 +169,12 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # dict[...] is not to be
         _, _, line, column = self._positions[key]
         return line + 1, column + 1
 
-    def _merge(self, sources: List[YamlMapping]) -> None:
-        """Put the keys of the sources before one's own, a later one's over an earlier one's."""
+    def merge(self, sources: List[YamlMapping]) -> None:
+        """
+        Put the keys of others before one's own, as a merge key does. One's own win.
+
+        :param sources: list of `YamlMapping`; a later one wins over an earlier one
+        """
         own, own_positions = dict(self), self._positions.copy()
         self.clear()
         self._positions.clear()
@@ -169,10 +190,10 @@ class YamlSequence(list):   # type: ignore[type-arg]
 
     __slots__ = ('_start', '_positions')
 
-    def __init__(self, line: int, column: int) -> None:
+    def __init__(self, line: int, column: int, positions: List[Position]) -> None:
         super().__init__()
         self._start = line, column
-        self._positions: List[Position] = []
+        self._positions = positions
 
     @property
     def position(self) -> Position:
@@ -249,9 +270,14 @@ def read_file(path: Union[str, PathLike[str]]) -> bytes:
 
     try:
         with open(path, 'rb', opener=opener) as file:
-            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            status = os.fstat(file.fileno())
+            if not stat.S_ISREG(status.st_mode):
                 raise OSError(errno.EINVAL, 'Not a regular file', str(path))
-            return file.read(MAX_SIZE + 1)
+            # The buffer for a read is as large as what is asked for, so that is not 1 MiB.
+            content = file.read(min(status.st_size, MAX_SIZE) + 1)
+            if status.st_size < len(content) <= MAX_SIZE:   # it grows, or is one of /proc
+                content += file.read(MAX_SIZE + 1 - len(content))
+            return content
     except ValueError as error:     # a NUL or a lone surrogate in the path
         raise OSError(errno.EINVAL, str(error), str(path)) from error
 
