@@ -171,8 +171,10 @@ class TestPackageIndex:
         (MANIFEST % ('a_package', '<a>' * 5000 + '</a>' * 5000), None, None, 'recursion'),
         (MANIFEST % ('a_package', ' ' * 2 ** 20), None, None, 'larger than 1 MiB'),
         (b'<package>\xff</package>', None, None, 'utf-8'),
+        ('<!DOCTYPE a [<!ENTITY a "a">]>' + MANIFEST % ('a_package', '&a;'), None, None,
+         'declares entities'),
     ], ids=['empty', 'not XML', 'other root', 'nothing in it', 'format 4', 'format two',
-            'two roots', 'no name', 'deep', 'large', 'not UTF-8'])
+            'two roots', 'no name', 'deep', 'large', 'not UTF-8', 'entities'])
     def test_an_invalid_manifest_is_reported_and_costs_only_its_package(
             self, tmp_path: Path, caplog: Any, content: Any, line: Any, column: Any,
             problem: str) -> None:
