@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import copy
+import doctest
 import io
 import logging
 import os
@@ -49,6 +50,14 @@ def plain(data):
     return [plain(item) for item in data] if isinstance(data, list) else data
 
 
+def test_the_examples_of_the_reference_run(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    failed, run = doctest.testfile(
+        str(ROOT / 'test' / 'specs' / 'reference.txt'), module_relative=False,
+        optionflags=doctest.ELLIPSIS)
+    assert run > 20 and not failed
+
+
 # -- the four ways to load a spec -----------------------------------------------------------------
 
 @pytest.mark.parametrize('kind', KINDS)
@@ -76,7 +85,7 @@ def test_every_way_to_load_a_spec_gives_the_same(kind):
 @pytest.mark.parametrize('kind', KINDS)
 @pytest.mark.parametrize('string', [None, 3, b'name: a', ['name: a'], {}])
 def test_a_string_is_a_str(kind, string):
-    with pytest.raises(AttributeError):
+    with pytest.raises(AttributeError, match='from a str, found %s$' % type(string).__name__):
         FROM_STRING[kind](string)
 
 

@@ -79,6 +79,18 @@ def test_adding_elements(kind):
     assert list(getattr(interface, section)) == ['c', 'b', 'a']
 
 
+def test_adding_to_a_section_by_its_name():
+    interface = Interface()
+    element = InterfaceElement('a', 'action', 'b/C')
+    interface.add_element('actions', 'a', element, 'requires')
+    assert list(interface.elements()) == [('actions', 'a', element, 'requires')]
+    assert interface.required_actions == {'a': element}
+    with pytest.raises(RuntimeError):
+        interface.add_element('actions', 'a', element)
+    with pytest.raises(KeyError):
+        interface.add_element('action', 'b', element)
+
+
 def test_adding_dynamic_parameters():
     interface = Interface()
     interface.add_dynamic_parameter('gain')

@@ -107,8 +107,9 @@ def test_a_name_has_one_new_name():
             provider.add_remapping(kind, 'a', 'c')
     with pytest.raises(ValueError, match='expected topics, services, actions, parameters'):
         provider.add_remapping('topic', 'd', 'e')
-    with pytest.raises(ValueError):
-        CapabilityProvider('a', 1, 'b/C', remappings={'names': {'a': 'b'}})
+    for remappings in ({'names': {'a': 'b'}}, {'names': {}}, {'a': 'b'}):
+        with pytest.raises(ValueError, match='expected topics, services, actions, parameters'):
+            CapabilityProvider('a', 1, 'b/C', remappings=remappings)
     assert provider.remappings == {'a': 'b'}
     assert provider.remappings_by_type == {
         'topics': {'a': 'b'}, 'services': {'a': 'b'}, 'actions': {}, 'parameters': {}}

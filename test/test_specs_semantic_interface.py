@@ -164,6 +164,20 @@ def test_two_names_can_come_out_the_same_by_the_namespace_alone():
         "left.yaml:5:19: 'a' and '/a' of topics both come out as '/left/a'")
 
 
+def test_an_empty_namespace_is_none():
+    interface = capability_interface_from_string(INTERFACE)
+    semantic = SemanticCapabilityInterface('Left', 'a_package/A', 1, global_namespace='')
+    assert list(semantic.resolve(interface).topics) == list(interface.topics)
+
+
+def test_the_first_name_that_the_interface_does_not_have_is_reported():
+    names = ['name_%d' % i for i in range(20)]
+    semantic = SemanticCapabilityInterface(
+        'Left', 'a_package/A', 1, remappings={'topics': {name: 'a' for name in names}})
+    with pytest.raises(InvalidSemanticInterface, match="has no 'name_0' in topics"):
+        semantic.resolve(capability_interface_from_string(INTERFACE))
+
+
 def test_what_was_made_by_hand_has_no_place():
     semantic = SemanticCapabilityInterface(
         'Left', 'a_package/A', 1, remappings={'topics': {'cmd_vel': 'a'}})

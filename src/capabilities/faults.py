@@ -3,8 +3,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from capabilities.spec_index import did_you_mean
-from rocon_uri.yaml_source import near_misses, quoted
+from rocon_uri.yaml_source import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ It is usually made by `capabilities.discovery.spec_index_from_spec_file_index`.
 """
 from __future__ import annotations
 
-from rocon_uri.yaml_source import YamlMapping, located, near_misses, quoted
+from rocon_uri.yaml_source import YamlMapping, did_you_mean, located, near_misses, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -80,20 +80,6 @@ class InterfaceNameNotFoundException(_RefusedSpec):
 
     def _problem(self) -> str:
         return self.msg + did_you_mean(self.suggestions)
-
-
-def did_you_mean(suggestions: Iterable[str]) -> str:
-    """
-    The end of an error that knows what was probably meant.
-
-    :param suggestions: iterable of str, the likeliest first
-    :returns: str, empty if there are none
-
-    >>> did_you_mean(['a_package/RGBCamera'])
-    " (did you mean 'a_package/RGBCamera'?)"
-    """
-    meant = ' or '.join(map(quoted, suggestions))
-    return ' (did you mean %s?)' % meant if meant else ''
 
 
 class SpecIndex:

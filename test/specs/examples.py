@@ -170,7 +170,7 @@ BAD = _bad('interface', '', [
     ('depends_on: {~: }', '5:14: depends_on is empty, expected package/name'),
     ('depends_on: {B: }', "5:14: depends_on is 'B', expected package/name"),
     ('depends_on: {a/B: c/d}',
-     "5:19: a condition of depends_on is 'c/d', expected a mapping"),
+     "5:19: depends_on 'a/B' is 'c/d', expected a mapping"),
     ('depends_on: {a/B: {providr: c/d}}',
      "5:20: unknown condition 'providr' in depends_on (did you mean 'provider'?)"),
     ('depends_on: {a/B: {provider: d}}', "5:30: provider is 'd', expected package/name"),

@@ -8,7 +8,7 @@ import re
 from capabilities.specs.common import SpecName, SpecWarning, shown
 from rocon_uri.ros_names import is_legal_base_name
 from rocon_uri.yaml_source import (
-    MAX_SIZE, YamlError, YamlMapping, YamlSequence, load, load_file, near_misses, quoted)
+    MAX_SIZE, YamlError, YamlMapping, YamlSequence, did_you_mean, load, load_file, near_misses)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ class SpecSource:
         unknown = [name for name in self.spec if isinstance(name, str) and name not in self.keys]
         for near in near_misses(key, unknown[:_MAX_WARNINGS]):
             raise self.error(key_place(self.spec, near), 'unknown key %s, and the spec has no '
-                             + key + ' (did you mean %s?)', near, key)
+                             + key + did_you_mean([key]), near)
         raise self.error(key_place(self.spec, key) if key in self.spec else place_of(self.spec),
                          'the spec has no ' + key)
 
@@ -139,18 +139,21 @@ class SpecSource:
             return value
         return self.text_in(mapping, 'description', value, what, *names)
 
-    def mapping_in(self, collection: Dict[Any, Any], key: Any, what: str) -> Dict[Any, Any]:
+    def mapping_in(self, collection: Dict[Any, Any], key: Any, what: str,
+                   *names: Any) -> Dict[Any, Any]:
         """This value of a mapping, which must be a mapping, or empty."""
         value = collection.get(key)
         if isinstance(value, dict):
             return value
         if value is None or isinstance(value, list) and not value:
             return {}
-        raise self.error(value_place(collection, key), what + ' is %s, expected a mapping', value)
+        raise self.error(value_place(collection, key), what + ' is %s, expected a mapping',
+                         *names, value)
 
-    def names_in(self, collection: Dict[Any, Any], key: Any, what: str) -> Dict[Any, Any]:
+    def names_in(self, collection: Dict[Any, Any], key: Any, what: str,
+                 *names: Any) -> Dict[Any, Any]:
         """This value of a mapping, which must be a mapping with each key once, or empty."""
-        mapping = self.mapping_in(collection, key, what)
+        mapping = self.mapping_in(collection, key, what, *names)
         self.check_repeated(mapping)
         return mapping
 
@@ -166,9 +169,9 @@ class SpecSource:
                 within: str, *names: Any) -> Tuple[Any, ...]:
         """The arguments of `error` and `warn` for a key that is not known."""
         near = near_misses(key, known) if isinstance(key, str) else []
-        return (key_place(mapping, key), 'unknown %s %%s in %s (%s)' % (
-            kind, within, 'did you mean %s?' % ' or '.join(map(quoted, near)) if near
-            else 'expected ' + ', '.join(known)), key, *names)
+        expected = did_you_mean(near) or ' (expected %s)' % ', '.join(known)
+        return (key_place(mapping, key), 'unknown %s %%s in %s%s' % (kind, within, expected),
+                key, *names)
 
     def warn_of_unknown(self, mapping: Dict[Any, Any], known: Tuple[str, ...], within: str,
                         *names: Any) -> None:
@@ -178,35 +181,37 @@ class SpecSource:
                 self.warn(*self.unknown('key', mapping, key, known, within, *names))
 
 
-def load_spec_string(string: str, file_name: str, invalid: Type[InvalidSpec]) -> Dict[Any, Any]:
+def load_spec_string(string: str, file_name: str,
+                     invalid: Type[InvalidSpec]) -> Tuple[Dict[Any, Any], str]:
     """
-    The plain data of a spec.
+    The plain data of a spec, and the name that errors give.
 
     :param str string: the text of the spec
     :param str file_name: the name that errors give
     :param invalid: the subclass of `InvalidSpec` to raise
-    :returns: `rocon_uri.yaml_source.YamlMapping`
+    :returns: (`rocon_uri.yaml_source.YamlMapping`, str)
     :raises InvalidSpec: if it is not YAML, or no mapping
     :raises AttributeError: if ``string`` is not a str
     """
     if not isinstance(string, str):
-        raise AttributeError('a spec is read from a str, found %s' % shown(string))
+        raise AttributeError('a spec is read from a str, found %s' % type(string).__name__)
     return _loaded(lambda: load(string, file_name), file_name, invalid)
 
 
-def load_spec_file(file_handle: IO[Any], file_name: str,
-                   invalid: Type[InvalidSpec]) -> Dict[Any, Any]:
+def load_spec_file(file_handle: IO[Any],
+                   invalid: Type[InvalidSpec]) -> Tuple[Dict[Any, Any], str]:
     """
     The plain data of a spec, from an open file. Parameters and errors as in `load_spec_string`.
 
     :param file_handle: open for reading, as text or binary
     :raises OSError: if it cannot be read
     """
+    file_name = str(getattr(file_handle, 'name', '<file>'))
     return _loaded(lambda: load(file_handle.read(MAX_SIZE + 1), file_name), file_name, invalid)
 
 
 def load_spec_file_path(file_path: Union[str, PathLike[str]],
-                        invalid: Type[InvalidSpec]) -> Dict[Any, Any]:
+                        invalid: Type[InvalidSpec]) -> Tuple[Dict[Any, Any], str]:
     """
     The plain data of a spec, from a file. Parameters and errors as in `load_spec_string`.
 
@@ -217,8 +222,8 @@ def load_spec_file_path(file_path: Union[str, PathLike[str]],
 
 
 def _loaded(read: Callable[[], Any], file_name: str,
-            invalid: Type[InvalidSpec]) -> Dict[Any, Any]:
-    """What is read, if it is a mapping."""
+            invalid: Type[InvalidSpec]) -> Tuple[Dict[Any, Any], str]:
+    """What is read, if it is a mapping, and where it is from."""
     try:
         data = read()
     except YamlError as error:
@@ -227,7 +232,7 @@ def _loaded(read: Callable[[], Any], file_name: str,
         raise invalid('not %s text: %s' % (error.encoding, error.reason), file_name) from error
     if not isinstance(data, dict):
         raise invalid(_no_spec(data), file_name, 1, 1)
-    return data
+    return data, file_name
 
 
 def _no_spec(data: Any) -> str:

@@ -29,21 +29,18 @@ from __future__ import annotations
 from capabilities.specs._reading import (
     SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string, value_place)
 from capabilities.specs.common import NO_DESCRIPTION, CapabilitySpec, InvalidSpec, shown
-from rocon_uri.yaml_source import near_misses, quoted
+from capabilities.specs.interface_sections import GROUPINGS, SECTIONS, Interface
+from rocon_uri.yaml_source import did_you_mean, near_misses
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from os import PathLike
-    from typing import IO, Any, Dict, Iterator, List, Optional, Tuple, Union
+    from typing import IO, Any, Dict, Optional, Union
 
 __all__ = ['CapabilityInterface', 'Interface', 'InterfaceElement', 'InvalidInterface',
            'capability_interface_from_dict', 'capability_interface_from_file',
            'capability_interface_from_file_path', 'capability_interface_from_string']
 
-# The sections whose elements have a type, with the kind of their elements.
-SECTIONS = {'topics': 'topic', 'services': 'service', 'actions': 'action',
-            'parameters': 'parameter'}
-GROUPINGS = ('requires', 'provides')
 _ELEMENT_KINDS = (*SECTIONS.values(), 'dynamic_parameter')
 _ELEMENT_KEYS = ('type', 'description')
 
@@ -83,162 +80,6 @@ class InterfaceElement:
     def element_type(self) -> Optional[str]:
         """The same as ``type``."""
         return self.type
-
-
-class Interface:
-    """
-    What an interface is made of.
-
-    Topics, services, actions and parameters are required or provided, or neither is said; that is
-    for people, nothing depends on it. What is returned are new containers, in the order in which
-    the elements were added.
-
-    >>> interface = Interface()
-    >>> interface.add_topic('scan', InterfaceElement('scan', 'topic', 'sensor_msgs/LaserScan'),
-    ...                     grouping='provides')
-    >>> list(interface.topics), list(interface.required_topics)
-    (['scan'], [])
-    """
-
-    def __init__(self) -> None:
-        self._elements: Dict[str, Dict[str, Tuple[InterfaceElement, Optional[str]]]] = {
-            'topics': {}, 'services': {}, 'actions': {}, 'parameters': {}}
-        self._dynamic_parameters: Dict[str, None] = {}     # a set that keeps the order
-
-    @property
-    def topics(self) -> Dict[str, InterfaceElement]:
-        """All topics by name: a new dict of `InterfaceElement`."""
-        return self._section('topics')
-
-    @property
-    def required_topics(self) -> Dict[str, InterfaceElement]:
-        """The topics in the grouping ``requires``."""
-        return self._section('topics', 'requires')
-
-    @property
-    def provided_topics(self) -> Dict[str, InterfaceElement]:
-        """The topics in the grouping ``provides``."""
-        return self._section('topics', 'provides')
-
-    @property
-    def services(self) -> Dict[str, InterfaceElement]:
-        """All services by name: a new dict of `InterfaceElement`."""
-        return self._section('services')
-
-    @property
-    def required_services(self) -> Dict[str, InterfaceElement]:
-        """The services in the grouping ``requires``."""
-        return self._section('services', 'requires')
-
-    @property
-    def provided_services(self) -> Dict[str, InterfaceElement]:
-        """The services in the grouping ``provides``."""
-        return self._section('services', 'provides')
-
-    @property
-    def actions(self) -> Dict[str, InterfaceElement]:
-        """All actions by name: a new dict of `InterfaceElement`."""
-        return self._section('actions')
-
-    @property
-    def required_actions(self) -> Dict[str, InterfaceElement]:
-        """The actions in the grouping ``requires``."""
-        return self._section('actions', 'requires')
-
-    @property
-    def provided_actions(self) -> Dict[str, InterfaceElement]:
-        """The actions in the grouping ``provides``."""
-        return self._section('actions', 'provides')
-
-    @property
-    def parameters(self) -> Dict[str, InterfaceElement]:
-        """All parameters by name: a new dict of `InterfaceElement`."""
-        return self._section('parameters')
-
-    @property
-    def required_parameters(self) -> Dict[str, InterfaceElement]:
-        """The parameters in the grouping ``requires``."""
-        return self._section('parameters', 'requires')
-
-    @property
-    def provided_parameters(self) -> Dict[str, InterfaceElement]:
-        """The parameters in the grouping ``provides``."""
-        return self._section('parameters', 'provides')
-
-    @property
-    def dynamic_parameters(self) -> List[str]:
-        """The names of the dynamic parameters: a new list of str."""
-        return list(self._dynamic_parameters)
-
-    def add_topic(self, topic_name: str, interface_element: InterfaceElement,
-                  grouping: Optional[str] = None) -> None:
-        """
-        Add a topic.
-
-        :param str topic_name: its name
-        :param InterfaceElement interface_element: what it is
-        :param str grouping: ``'requires'``, ``'provides'`` or ``None``
-        :raises ValueError: if the grouping is another; or if it is ``None`` and the name is that
-            of a grouping, which a file could not tell apart
-        :raises RuntimeError: if the interface has a topic of that name
-        """
-        self._add('topics', topic_name, interface_element, grouping)
-
-    def add_service(self, service_name: str, interface_element: InterfaceElement,
-                    grouping: Optional[str] = None) -> None:
-        """Add a service. Parameters and errors are those of `add_topic`."""
-        self._add('services', service_name, interface_element, grouping)
-
-    def add_action(self, action_name: str, interface_element: InterfaceElement,
-                   grouping: Optional[str] = None) -> None:
-        """Add an action. Parameters and errors are those of `add_topic`."""
-        self._add('actions', action_name, interface_element, grouping)
-
-    def add_parameter(self, parameter_name: str, interface_element: InterfaceElement,
-                      grouping: Optional[str] = None) -> None:
-        """Add a parameter. Parameters and errors are those of `add_topic`."""
-        self._add('parameters', parameter_name, interface_element, grouping)
-
-    def add_dynamic_parameter(self, dynamic_parameter_name: str) -> None:
-        """
-        Add a dynamic parameter.
-
-        :param str dynamic_parameter_name: its name
-        :raises RuntimeError: if the interface has a dynamic parameter of that name
-        """
-        if dynamic_parameter_name in self._dynamic_parameters:
-            raise RuntimeError('dynamic_parameter %s is already in the interface'
-                               % shown(dynamic_parameter_name))
-        self._dynamic_parameters[dynamic_parameter_name] = None
-
-    def elements(self) -> Iterator[Tuple[str, str, InterfaceElement, Optional[str]]]:
-        """
-        Everything that has a type.
-
-        :returns: iterator of (section, name, element, grouping), as ``('topics', 'scan',
-            <InterfaceElement>, 'provides')``
-        """
-        for section, elements in self._elements.items():
-            for name, (element, grouping) in elements.items():
-                yield section, name, element, grouping
-
-    def _section(self, section: str, grouping: Optional[str] = None) -> Dict[str, InterfaceElement]:
-        """The elements of a section, or those in one grouping of it."""
-        return {name: element for name, (element, group) in self._elements[section].items()
-                if grouping is None or group == grouping}
-
-    def _add(self, section: str, name: str, element: InterfaceElement,
-             grouping: Optional[str]) -> None:
-        """Add an element to a section."""
-        if grouping is None and name in GROUPINGS:
-            raise ValueError('a name cannot be %s outside of a grouping' % quoted(name))
-        if grouping is not None and grouping not in GROUPINGS:
-            raise ValueError("%s is not a grouping, expected 'requires', 'provides' or None"
-                             % shown(grouping))
-        if name in self._elements[section]:
-            raise RuntimeError('%s %s is already in the interface' % (
-                SECTIONS[section], shown(name)))
-        self._elements[section][name] = element, grouping
 
 
 class CapabilityInterface(Interface, CapabilitySpec):
@@ -285,8 +126,8 @@ class CapabilityInterface(Interface, CapabilitySpec):
                 data['type'] = str(element.type)
             if element.description != NO_DESCRIPTION:
                 data['description'] = str(element.description)
-        if self._dynamic_parameters:
-            sections['dynamic_parameters'] = [str(name) for name in self._dynamic_parameters]
+        if self.dynamic_parameters:
+            sections['dynamic_parameters'] = [str(name) for name in self.dynamic_parameters]
         return {**CapabilitySpec.to_dict(self), 'interface': sections}
 
 
@@ -300,8 +141,7 @@ def capability_interface_from_file_path(file_path: Union[str, PathLike[str]]
     :raises InvalidInterface: if the spec is not complete or has invalid entries
     :raises OSError: if the file is not there, or cannot be read
     """
-    return capability_interface_from_dict(
-        load_spec_file_path(file_path, InvalidInterface), str(file_path))
+    return capability_interface_from_dict(*load_spec_file_path(file_path, InvalidInterface))
 
 
 def capability_interface_from_file(file_handle: IO[Any]) -> CapabilityInterface:
@@ -313,9 +153,7 @@ def capability_interface_from_file(file_handle: IO[Any]) -> CapabilityInterface:
     :raises InvalidInterface: if the spec is not complete or has invalid entries
     :raises OSError: if the file cannot be read
     """
-    file_name = str(getattr(file_handle, 'name', '<file>'))
-    return capability_interface_from_dict(
-        load_spec_file(file_handle, file_name, InvalidInterface), file_name)
+    return capability_interface_from_dict(*load_spec_file(file_handle, InvalidInterface))
 
 
 def capability_interface_from_string(string: str, file_name: str = '<string>'
@@ -329,8 +167,7 @@ def capability_interface_from_string(string: str, file_name: str = '<string>'
     :raises InvalidInterface: if the spec is not complete or has invalid entries
     :raises AttributeError: if ``string`` is not a str
     """
-    return capability_interface_from_dict(
-        load_spec_string(string, file_name, InvalidInterface), file_name)
+    return capability_interface_from_dict(*load_spec_string(string, file_name, InvalidInterface))
 
 
 def capability_interface_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>'
@@ -383,14 +220,14 @@ def _read_element(source: SpecSource, interface: Interface, section: str,
     source.check_repeated(element, ('description',), ' in ' + kind + ' %s', name)
     if element.get('type') is None:
         near = near_misses(name, GROUPINGS) if grouping is None else []
-        raise source.error(key_place(elements, name), kind + ' %s has no type' + ''.join(
-            ' (did you mean %r?)' % word for word in near), name)
+        raise source.error(key_place(elements, name),
+                           kind + ' %s has no type' + did_you_mean(near), name)
     source.warn_of_unknown(element, _ELEMENT_KEYS, kind + ' %s', name)
     element_type = source.text_in(element, 'type', element['type'], 'type of ' + kind + ' %s', name)
     description = source.description_in(element, 'description of ' + kind + ' %s', name)
     try:
-        interface._add(section, name, InterfaceElement(name, kind, element_type, description),
-                       grouping)
+        interface.add_element(
+            section, name, InterfaceElement(name, kind, element_type, description), grouping)
     except RuntimeError:
         raise source.error(key_place(elements, name),
                            kind + ' %s is there twice', name) from None

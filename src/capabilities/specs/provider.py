@@ -17,7 +17,7 @@ from __future__ import annotations
 from capabilities.specs._reading import (
     SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string, value_place)
 from capabilities.specs.common import InvalidSpec, SpecName, shown
-from capabilities.specs.remappings import RemappingSpec
+from capabilities.specs.remappings import RemappingSpec, read_remappings
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -168,8 +168,7 @@ def capability_provider_from_file_path(file_path: Union[str, PathLike[str]]
     :raises InvalidProvider: if the spec is not complete or has invalid entries
     :raises OSError: if the file is not there, or cannot be read
     """
-    return capability_provider_from_dict(
-        load_spec_file_path(file_path, InvalidProvider), str(file_path))
+    return capability_provider_from_dict(*load_spec_file_path(file_path, InvalidProvider))
 
 
 def capability_provider_from_file(file_handle: IO[Any]) -> CapabilityProvider:
@@ -181,9 +180,7 @@ def capability_provider_from_file(file_handle: IO[Any]) -> CapabilityProvider:
     :raises InvalidProvider: if the spec is not complete or has invalid entries
     :raises OSError: if the file cannot be read
     """
-    file_name = str(getattr(file_handle, 'name', '<file>'))
-    return capability_provider_from_dict(
-        load_spec_file(file_handle, file_name, InvalidProvider), file_name)
+    return capability_provider_from_dict(*load_spec_file(file_handle, InvalidProvider))
 
 
 def capability_provider_from_string(string: str, file_name: str = '<string>'
@@ -197,8 +194,7 @@ def capability_provider_from_string(string: str, file_name: str = '<string>'
     :raises InvalidProvider: if the spec is not complete or has invalid entries
     :raises AttributeError: if ``string`` is not a str
     """
-    return capability_provider_from_dict(
-        load_spec_string(string, file_name, InvalidProvider), file_name)
+    return capability_provider_from_dict(*load_spec_string(string, file_name, InvalidProvider))
 
 
 def capability_provider_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>'
@@ -219,7 +215,7 @@ def capability_provider_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>
         source.name, 1, source.spec_name('implements'), source.optional_text('launch_file'),
         source.description, nodelet_manager=source.optional_text('nodelet_manager'))
     _read_dependencies(source, provider)
-    provider._read_remappings(source)
+    read_remappings(source, provider)
     return source.finished(provider)
 
 
@@ -234,7 +230,7 @@ def _read_dependencies(source: SpecSource, provider: CapabilityProvider) -> None
     elif isinstance(given, dict):
         source.check_repeated(given)
         for name in given:
-            conditions = source.names_in(given, name, 'a condition of depends_on')
+            conditions = source.names_in(given, name, 'depends_on %s', name)
             for condition in conditions:
                 if condition != 'provider':
                     raise source.error(*source.unknown('condition', conditions, condition,

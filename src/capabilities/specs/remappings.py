@@ -17,7 +17,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Dict, Mapping, Optional
 
-__all__ = ['REMAPPING_KINDS', 'RemappingSpec']
+__all__ = ['REMAPPING_KINDS', 'RemappingSpec', 'read_remappings']
 
 REMAPPING_KINDS = ('topics', 'services', 'actions', 'parameters')
 
@@ -36,6 +36,7 @@ class RemappingSpec(CapabilitySpec):
         self._remappings_by_type: Dict[str, Dict[str, str]] = {
             'topics': {}, 'services': {}, 'actions': {}, 'parameters': {}}
         for kind, new_names in (remappings or {}).items():
+            _check_kind(kind)
             for old_name, new_name in new_names.items():
                 self.add_remapping(kind, old_name, new_name)
 
@@ -60,9 +61,7 @@ class RemappingSpec(CapabilitySpec):
         :raises ValueError: if the kind is another
         :raises RuntimeError: if the name is remapped to something else
         """
-        if kind not in REMAPPING_KINDS:
-            raise ValueError('%s is not a kind of remapping, expected %s' % (
-                shown(kind), ', '.join(REMAPPING_KINDS)))
+        _check_kind(kind)
         if self._remappings.setdefault(name, new_name) != new_name:
             raise RuntimeError('%s is remapped to %s and to %s' % (
                 shown(name), shown(self._remappings[name]), shown(new_name)))
@@ -75,24 +74,38 @@ class RemappingSpec(CapabilitySpec):
             for kind, new_names in self._remappings_by_type.items() if new_names}
         return {'remappings': remappings} if remappings else {}
 
-    def _read_remappings(self, source: SpecSource) -> None:
-        """Add the remappings that the source has."""
-        kinds = source.names_in(source.spec, 'remappings', 'remappings')
-        for kind in kinds:
-            if kind not in REMAPPING_KINDS:
-                raise source.error(*source.unknown('kind', kinds, kind, REMAPPING_KINDS,
-                                                   'remappings'))
-            new_names = source.mapping_in(kinds, kind, 'remappings of ' + kind)
-            for key, value in new_names.items():
-                name = source.name_in(new_names, key, 'the name of a remapping')
-                new_name = source.text_in(new_names, key, value, 'the new name of %s', name)
-                if self._remappings.get(name, new_name) != new_name:
-                    raise source.error(key_place(new_names, key),
-                                       '%s is remapped to %s and to %s',
-                                       name, self._remappings[name], new_name)
-                self.add_remapping(kind, name, new_name)
-            for name, lost, place in getattr(new_names, 'repeated', ()):
-                if lost != new_names[name]:
-                    raise source.error(place, '%s is remapped to %s and to %s',
-                                       name, lost, new_names[name])
-                source.warn(place, '%s is remapped twice, to the same', name)
+
+def _check_kind(kind: str) -> None:
+    """Refuse what is not a kind of remapping."""
+    if kind not in REMAPPING_KINDS:
+        raise ValueError('%s is not a kind of remapping, expected %s' % (
+            shown(kind), ', '.join(REMAPPING_KINDS)))
+
+
+def read_remappings(source: SpecSource, spec: RemappingSpec) -> None:
+    """
+    Add the remappings that a source has.
+
+    :param source: `capabilities.specs._reading.SpecSource`
+    :param spec: the spec to add them to
+    :raises InvalidSpec: if one cannot be used
+    """
+    kinds = source.names_in(source.spec, 'remappings', 'remappings')
+    for kind in kinds:
+        if kind not in REMAPPING_KINDS:
+            raise source.error(*source.unknown('kind', kinds, kind, REMAPPING_KINDS,
+                                               'remappings'))
+        new_names = source.mapping_in(kinds, kind, 'remappings of ' + kind)
+        for key, value in new_names.items():
+            name = source.name_in(new_names, key, 'the name of a remapping')
+            new_name = source.text_in(new_names, key, value, 'the new name of %s', name)
+            try:
+                spec.add_remapping(kind, name, new_name)
+            except RuntimeError as error:
+                raise source.invalid(str(error), source.file_name,
+                                     *key_place(new_names, key)) from None
+        for name, lost, place in getattr(new_names, 'repeated', ()):
+            if lost != new_names[name]:
+                raise source.error(place, '%s is remapped to %s and to %s',
+                                   name, lost, new_names[name])
+            source.warn(place, '%s is remapped twice, to the same', name)

@@ -20,15 +20,15 @@ from __future__ import annotations
 
 from capabilities.specs._reading import (
     SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string, value_place)
-from capabilities.specs.common import InvalidSpec, shown
+from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import CapabilityInterface, InterfaceElement
-from capabilities.specs.remappings import RemappingSpec
-from rocon_uri.yaml_source import near_misses, quoted
+from capabilities.specs.remappings import RemappingSpec, read_remappings
+from rocon_uri.yaml_source import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from os import PathLike
-    from typing import IO, Any, Dict, Mapping, Optional, Sequence, Union
+    from typing import IO, Any, Dict, Mapping, Optional, Sequence, Set, Union
 
 __all__ = ['InvalidSemanticInterface', 'SemanticCapabilityInterface',
            'semantic_capability_interface_from_dict', 'semantic_capability_interface_from_file',
@@ -99,14 +99,13 @@ class SemanticCapabilityInterface(RemappingSpec):
             new_name = self._remappings_by_type[section].get(name) or self._in_namespace(name)
             old_name = old_names.setdefault((section, new_name), name)
             if old_name != name:
-                raise self._error(
-                    section, [name, old_name], '%s and %s of %s both come out as %s' % (
-                        quoted(old_name), quoted(name), section, quoted(new_name)))
-            new_element = InterfaceElement(
-                new_name, element.kind, element.type, element.description)
+                msg = '%s and %s of %s both come out as %s' % (
+                    quoted(old_name), quoted(name), section, quoted(new_name))
+                raise self._error(section, [name, old_name], msg)
+            renamed = InterfaceElement(new_name, element.kind, element.type, element.description)
             try:
-                resolved._add(section, new_name, new_element, grouping)
-            except ValueError as error:
+                resolved.add_element(section, new_name, renamed, grouping)
+            except ValueError as error:     # it is called as a grouping is, and in none
                 raise self._error(section, [name], str(error)) from None
         for dynamic_parameter in interface.dynamic_parameters:
             resolved.add_dynamic_parameter(dynamic_parameter)
@@ -127,26 +126,23 @@ class SemanticCapabilityInterface(RemappingSpec):
 
     def _in_namespace(self, name: str) -> str:
         """The name, in the global namespace."""
-        if self.global_namespace is None or name.startswith('~'):
+        if not self.global_namespace or name.startswith('~'):
             return name
-        namespace = self.global_namespace.rstrip('/')
-        if name.startswith('/'):
-            return namespace + name if namespace.startswith('/') or not namespace \
-                else '/' + namespace + name
-        return namespace + '/' + name
+        new_name = self.global_namespace.rstrip('/') + '/' + name.lstrip('/')
+        return '/' + new_name.lstrip('/') if name.startswith('/') else new_name
 
     def _check_remapped_names(self, interface: CapabilityInterface) -> None:
         """Refuse to remap what the interface does not have."""
-        names: Dict[str, Dict[str, InterfaceElement]] = {
-            'topics': interface.topics, 'services': interface.services,
-            'actions': interface.actions, 'parameters': interface.parameters}
+        names: Dict[str, Set[str]] = {section: set() for section in self._remappings_by_type}
+        for section, name, _, _ in interface.elements():
+            names[section].add(name)
         for section, new_names in self._remappings_by_type.items():
             for name in new_names:
                 if name not in names[section]:
-                    near = near_misses(name, names[section])
-                    raise self._error(section, [name], '%s has no %s in %s to remap%s' % (
-                        shown(interface.name), quoted(name), section,
-                        ' (did you mean %s?)' % ' or '.join(map(quoted, near)) if near else ''))
+                    msg = '%s has no %s in %s to remap%s' % (
+                        quoted(interface.name), quoted(name), section,
+                        did_you_mean(near_misses(name, names[section])))
+                    raise self._error(section, [name], msg)
 
     def _error(self, section: str, names: Sequence[str], msg: str) -> InvalidSemanticInterface:
         """The error of these names; it is where one is remapped, else at the namespace."""
@@ -169,7 +165,7 @@ def semantic_capability_interface_from_file_path(file_path: Union[str, PathLike[
     :raises OSError: if the file is not there, or cannot be read
     """
     return semantic_capability_interface_from_dict(
-        load_spec_file_path(file_path, InvalidSemanticInterface), str(file_path))
+        *load_spec_file_path(file_path, InvalidSemanticInterface))
 
 
 def semantic_capability_interface_from_file(file_handle: IO[Any]) -> SemanticCapabilityInterface:
@@ -181,9 +177,8 @@ def semantic_capability_interface_from_file(file_handle: IO[Any]) -> SemanticCap
     :raises InvalidSemanticInterface: if the spec is not complete or has invalid entries
     :raises OSError: if the file cannot be read
     """
-    file_name = str(getattr(file_handle, 'name', '<file>'))
     return semantic_capability_interface_from_dict(
-        load_spec_file(file_handle, file_name, InvalidSemanticInterface), file_name)
+        *load_spec_file(file_handle, InvalidSemanticInterface))
 
 
 def semantic_capability_interface_from_string(string: str, file_name: str = '<string>'
@@ -198,7 +193,7 @@ def semantic_capability_interface_from_string(string: str, file_name: str = '<st
     :raises AttributeError: if ``string`` is not a str
     """
     return semantic_capability_interface_from_dict(
-        load_spec_string(string, file_name, InvalidSemanticInterface), file_name)
+        *load_spec_string(string, file_name, InvalidSemanticInterface))
 
 
 def semantic_capability_interface_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>'
@@ -216,5 +211,5 @@ def semantic_capability_interface_from_dict(spec: Dict[Any, Any], file_name: str
     semantic_interface = SemanticCapabilityInterface(
         source.name, source.spec_name('redefines'), 1, source.description,
         source.optional_text('global_namespace'))
-    semantic_interface._read_remappings(source)
+    read_remappings(source, semantic_interface)
     return source.finished(semantic_interface)

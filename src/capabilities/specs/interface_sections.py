@@ -1,0 +1,186 @@
+"""
+The sections of a capability interface: topics, services, actions and parameters, by grouping.
+"""
+from __future__ import annotations
+
+from capabilities.specs.common import shown
+from rocon_uri.yaml_source import quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Dict, Iterator, List, Optional, Tuple
+
+    from capabilities.specs.interface import InterfaceElement
+
+__all__ = ['GROUPINGS', 'SECTIONS', 'Interface']
+
+#: the sections whose elements have a type, with the kind of their elements
+SECTIONS = {'topics': 'topic', 'services': 'service', 'actions': 'action',
+            'parameters': 'parameter'}
+#: what may be said of the elements of a section
+GROUPINGS = ('requires', 'provides')
+
+
+class Interface:
+    """
+    What an interface is made of.
+
+    Topics, services, actions and parameters are required or provided, or neither is said; that is
+    for people, nothing depends on it. What is returned are new containers, in the order in which
+    the elements were added.
+
+    >>> from capabilities.specs.interface import InterfaceElement
+    >>> interface = Interface()
+    >>> interface.add_topic('scan', InterfaceElement('scan', 'topic', 'sensor_msgs/LaserScan'),
+    ...                     grouping='provides')
+    >>> list(interface.topics), list(interface.required_topics)
+    (['scan'], [])
+    """
+
+    def __init__(self) -> None:
+        self._elements: Dict[str, Dict[str, Tuple[InterfaceElement, Optional[str]]]] = {
+            section: {} for section in SECTIONS}
+        self._dynamic_parameters: Dict[str, None] = {}     # a set that keeps the order
+
+    @property
+    def topics(self) -> Dict[str, InterfaceElement]:
+        """All topics by name: a new dict of `InterfaceElement`."""
+        return self._section('topics')
+
+    @property
+    def required_topics(self) -> Dict[str, InterfaceElement]:
+        """The topics in the grouping ``requires``."""
+        return self._section('topics', 'requires')
+
+    @property
+    def provided_topics(self) -> Dict[str, InterfaceElement]:
+        """The topics in the grouping ``provides``."""
+        return self._section('topics', 'provides')
+
+    @property
+    def services(self) -> Dict[str, InterfaceElement]:
+        """All services by name: a new dict of `InterfaceElement`."""
+        return self._section('services')
+
+    @property
+    def required_services(self) -> Dict[str, InterfaceElement]:
+        """The services in the grouping ``requires``."""
+        return self._section('services', 'requires')
+
+    @property
+    def provided_services(self) -> Dict[str, InterfaceElement]:
+        """The services in the grouping ``provides``."""
+        return self._section('services', 'provides')
+
+    @property
+    def actions(self) -> Dict[str, InterfaceElement]:
+        """All actions by name: a new dict of `InterfaceElement`."""
+        return self._section('actions')
+
+    @property
+    def required_actions(self) -> Dict[str, InterfaceElement]:
+        """The actions in the grouping ``requires``."""
+        return self._section('actions', 'requires')
+
+    @property
+    def provided_actions(self) -> Dict[str, InterfaceElement]:
+        """The actions in the grouping ``provides``."""
+        return self._section('actions', 'provides')
+
+    @property
+    def parameters(self) -> Dict[str, InterfaceElement]:
+        """All parameters by name: a new dict of `InterfaceElement`."""
+        return self._section('parameters')
+
+    @property
+    def required_parameters(self) -> Dict[str, InterfaceElement]:
+        """The parameters in the grouping ``requires``."""
+        return self._section('parameters', 'requires')
+
+    @property
+    def provided_parameters(self) -> Dict[str, InterfaceElement]:
+        """The parameters in the grouping ``provides``."""
+        return self._section('parameters', 'provides')
+
+    @property
+    def dynamic_parameters(self) -> List[str]:
+        """The names of the dynamic parameters: a new list of str."""
+        return list(self._dynamic_parameters)
+
+    def add_topic(self, topic_name: str, interface_element: InterfaceElement,
+                  grouping: Optional[str] = None) -> None:
+        """
+        Add a topic.
+
+        :param str topic_name: its name
+        :param InterfaceElement interface_element: what it is
+        :param str grouping: ``'requires'``, ``'provides'`` or ``None``
+        :raises ValueError: if the grouping is another; or if it is ``None`` and the name is that
+            of a grouping, which a file could not tell apart
+        :raises RuntimeError: if the interface has a topic of that name
+        """
+        self.add_element('topics', topic_name, interface_element, grouping)
+
+    def add_service(self, service_name: str, interface_element: InterfaceElement,
+                    grouping: Optional[str] = None) -> None:
+        """Add a service. Parameters and errors are those of `add_topic`."""
+        self.add_element('services', service_name, interface_element, grouping)
+
+    def add_action(self, action_name: str, interface_element: InterfaceElement,
+                   grouping: Optional[str] = None) -> None:
+        """Add an action. Parameters and errors are those of `add_topic`."""
+        self.add_element('actions', action_name, interface_element, grouping)
+
+    def add_parameter(self, parameter_name: str, interface_element: InterfaceElement,
+                      grouping: Optional[str] = None) -> None:
+        """Add a parameter. Parameters and errors are those of `add_topic`."""
+        self.add_element('parameters', parameter_name, interface_element, grouping)
+
+    def add_dynamic_parameter(self, dynamic_parameter_name: str) -> None:
+        """
+        Add a dynamic parameter.
+
+        :param str dynamic_parameter_name: its name
+        :raises RuntimeError: if the interface has a dynamic parameter of that name
+        """
+        if dynamic_parameter_name in self._dynamic_parameters:
+            raise RuntimeError('dynamic_parameter %s is already in the interface'
+                               % shown(dynamic_parameter_name))
+        self._dynamic_parameters[dynamic_parameter_name] = None
+
+    def add_element(self, section: str, name: str, element: InterfaceElement,
+                    grouping: Optional[str] = None) -> None:
+        """
+        Add an element to a section. Errors are those of `add_topic`.
+
+        :param str section: ``'topics'``, ``'services'``, ``'actions'`` or ``'parameters'``
+        :param str name: its name
+        :param InterfaceElement element: what it is
+        :param str grouping: ``'requires'``, ``'provides'`` or ``None``
+        :raises KeyError: if there is no such section
+        """
+        if grouping is None and name in GROUPINGS:
+            raise ValueError('a name cannot be %s outside of a grouping' % quoted(name))
+        if grouping is not None and grouping not in GROUPINGS:
+            raise ValueError("%s is not a grouping, expected 'requires', 'provides' or None"
+                             % shown(grouping))
+        if name in self._elements[section]:
+            raise RuntimeError('%s %s is already in the interface' % (
+                SECTIONS[section], shown(name)))
+        self._elements[section][name] = element, grouping
+
+    def elements(self) -> Iterator[Tuple[str, str, InterfaceElement, Optional[str]]]:
+        """
+        Everything that has a type.
+
+        :returns: iterator of (section, name, element, grouping), as ``('topics', 'scan',
+            <InterfaceElement>, 'provides')``
+        """
+        for section, elements in self._elements.items():
+            for name, (element, grouping) in elements.items():
+                yield section, name, element, grouping
+
+    def _section(self, section: str, grouping: Optional[str] = None) -> Dict[str, InterfaceElement]:
+        """The elements of a section, or those in one grouping of it."""
+        return {name: element for name, (element, group) in self._elements[section].items()
+                if grouping is None or group == grouping}
