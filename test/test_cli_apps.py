@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import json
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -147,6 +149,21 @@ def test_what_is_wrong_with_one_file_is_said_once_and_hides_no_other(apps, tmp_p
     assert status == 2 and lines[1:] == ['  ours/dance']
     assert err.count(str(tmp_path)) == 3 and err.count('\n') == 3
     assert '%s:1:9: launch is 7, expected text' % (bad / 'dance.rapp') in err
+
+
+def test_the_command_itself_says_nothing_twice_and_knows_all_rules(tmp_path):
+    """A process of its own: nothing in it was set up or loaded before."""
+    dance(tmp_path, 'launch: 7', 'bad')
+    (tmp_path / 'rules.yaml').write_text('hardware_platform: {robot: [our_robot]}')
+    path = '%s%s%s' % (tmp_path, os.pathsep, EXAMPLES)      # where another robot is registered
+    done = subprocess.run(
+        [sys.executable, str(EXAMPLES.parents[1] / 'scripts' / 'rocon_uri'), 'apps',
+         '--robot', 'rocon:/our_robot', '--package-path', path],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+        env=dict(os.environ, ROCON_URI_RULES=str(tmp_path / 'rules.yaml')))
+    assert done.stderr == '%s:1:9: launch is 7, expected text\n' % (
+        tmp_path / 'bad' / 'dance.rapp')
+    assert done.returncode == 2 and 'cafe_rapps/radio' in done.stdout
 
 
 def test_control_characters_of_files_do_not_reach_the_terminal(apps, tmp_path):

@@ -189,6 +189,12 @@ def test_check_of_a_bad_path_is_2_whatever_else_was_found(specs, tmp_path, name,
     assert status == 2 and "%s' %s" % (name, problem) in err and out.count('\n') == 2
 
 
+def test_check_of_a_package_that_is_none_is_an_error_of_it(specs, tmp_path):
+    (tmp_path / 'package.xml').write_text('<package>')
+    status, out, err = specs('check', tmp_path)
+    assert status == 1 and ': error: ' in out and 'has no package in it' not in err
+
+
 def test_check_as_json(specs, tmp_path, monkeypatch):
     bad_package(tmp_path)
     monkeypatch.chdir(tmp_path)
@@ -227,6 +233,11 @@ def test_check_whose_report_cannot_be_written_is_2(specs, tmp_path):
     assert status == 2 and 'cannot write' in err
 
 
+def test_check_of_a_bad_path_writes_no_report_that_it_passed(specs, tmp_path):
+    assert specs('check', tmp_path, '--junit', tmp_path / 'check.xml')[0] == 2
+    assert not (tmp_path / 'check.xml').exists()
+
+
 @needs_corpus
 def test_check_of_the_corpus_finds_errors(specs):
     status, out, err = specs('check', CORPUS)
@@ -262,7 +273,7 @@ def test_what_is_named_and_not_there_is_in_the_graph(specs, tmp_path):
     assert '"#ours/dance" -> "ours/Legs" [label="requires"' in out
 
 
-HOSTILE = 'a"];\\x -> "</svg>\n\u202e\udcff<b>&amp;'
+HOSTILE = 'a"];\\x -> "</svg>\n\u202e\udcff<b>&amp;\\'
 
 
 @needs_dot

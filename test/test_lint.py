@@ -91,6 +91,13 @@ def test_what_a_package_refers_to_may_be_elsewhere_on_the_package_path(tmp_path,
     assert len(findings_in(tmp_path / 'b', monkeypatch)) == 1
 
 
+def test_a_package_that_is_checked_stands_for_another_of_its_name(tmp_path, monkeypatch):
+    make_package(tmp_path / 'old', 'ours', [('rocon_app', 'dance.rapp')], dance_rapp='[')
+    make_package(tmp_path / 'new', 'ours', [('rocon_app', 'dance.rapp')], dance_rapp='colour: red')
+    (line,) = findings_in(tmp_path / 'new', monkeypatch, str(tmp_path / 'old'))
+    assert "unknown key 'colour'" in line
+
+
 def test_only_the_packages_that_are_asked_for_are_checked(tmp_path, monkeypatch):
     make_package(tmp_path / 'a', 'theirs', [('rocon_app', 'dance.rapp')], dance_rapp='[')
     make_package(tmp_path / 'b', 'ours')
@@ -132,6 +139,15 @@ def test_an_export_names_a_file_of_the_package(tmp_path, monkeypatch, export, fi
         manifest.replace('<export>\n\n', '<export>\n    %s\n' % export))
     lines = [line for line in findings_in(tmp_path, monkeypatch) if 'package.xml' in line]
     assert lines == ([] if finding is None else ['ours/package.xml:' + finding])
+
+
+def test_what_is_exported_from_elsewhere_is_not_checked(tmp_path, monkeypatch):
+    (tmp_path / 'elsewhere.rapp').write_text('colour: red')
+    (tmp_path / 'elsewhere.yaml').write_text(CAMERA.replace('image:', '7mage:'))
+    make_package(tmp_path, 'ours', [('rocon_app', '../elsewhere.rapp'),
+                                    ('capability_interface', '../elsewhere.yaml')])
+    lines = findings_in(tmp_path, monkeypatch)
+    assert len(lines) == 2 and all('is outside the package' in line for line in lines)
 
 
 def test_an_invalid_manifest_is_found_and_hides_no_other(tmp_path, monkeypatch):
@@ -400,6 +416,8 @@ def test_interactions_in_all_forms_are_found(tmp_path, monkeypatch, text):
     ('[{name: A, compatibility: "rocon:/", remappings: [{remap_from: a, to: b}]}]',
      ['1:51: error: a remapping has no remap_to, or one that is no text',
       "1:67: warning: unknown key 'to' in a remapping"]),
+    ('[{name: A, compatibility: "rocon:/", remappings: [{remap_from: a, remap_to: ""}]}]',
+     ["1:77: error: remap_to '' is not a legal ROS name"]),
     ('[%s, %s]' % (LISTENER, LISTENER), ["1:48: error: interaction 'Listener' is there twice"]),
     ('pairings: [{name: Talk}]', ['1:12: error: a pairing has no rapp']),
     ('pairings: [{name: Talk, rapp: ours/dacne}]',

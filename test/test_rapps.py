@@ -128,6 +128,10 @@ def test_a_parent_without_a_package_is_of_the_same_one():
      '1:57: topics is a list, expected a mapping'),
     ('required_capabilities: [{name: a/b, interface: {topics: {requires: {scan: 7}}}}]',
      "1:75: 'scan' is 7, expected text"),
+    ('required_capabilities: [{name: a/b, interface: {topics: {requires: {scan: }}}}]',
+     "1:69: 'scan': empty, expected a name and what to call it"),
+    ('required_capabilities: [{name: a/b, interface: {topics: {requires: {7: scan}}}}]',
+     "1:69: 7: 'scan', expected a name and what to call it"),
 ])
 def test_what_is_no_rapp_is_refused_with_the_place(text, error):
     with pytest.raises(InvalidRapp) as caught:
@@ -175,6 +179,11 @@ def test_a_child_inherits_what_it_does_not_say():
     assert (dance.public_interface, dance.public_parameters) == ('motion.interface',
                                                                  'motion.parameters')
     assert dance.compatibility is dance.launch is None and dance.others == {}
+
+
+def test_an_empty_description_is_one():
+    rapps, _ = family(motion='description: Moves', dance='{parent_name: motion, description: ""}')
+    assert rapps['dance'].description == ''
 
 
 def test_what_is_inherited_comes_through_all_generations():
@@ -314,7 +323,7 @@ def test_a_capability_that_cannot_be_had_is_a_reason(providers, required, kind, 
     assert not verdict
     (reason,) = verdict.reasons
     assert (reason.kind, reason.fault.kind, reason.explanation) == (kind, fault, None)
-    assert reason.text.partition(' (did you mean')[0] == text
+    assert str(reason).partition(' (did you mean')[0] == text
 
 
 def test_a_default_decides_between_providers():
@@ -323,11 +332,17 @@ def test_a_default_decides_between_providers():
     assert verdict and verdict.providers == ('caps/y',)
 
 
+def test_two_providers_of_one_capability_at_once_are_a_reason():
+    index = spec_index('x A', 'y A', 'z B, depends_on: {caps/A: {provider: caps/y}}')
+    (reason,) = runnable(rapp_that_requires('A', 'B'), ROBOT, index, {'caps/A': 'caps/x'}).reasons
+    assert (reason.kind, reason.fault.kind) == (ReasonKind.DEPENDENCY, FaultKind.CONFLICT)
+
+
 def test_the_platform_is_explained_field_by_field():
     rapp = rapp_that_requires(compatibility='rocon:/kobuki|pr2/*/noetic')
     (reason,) = runnable(rapp, 'rocon:/turtlebot2/bob/indigo/trusty', spec_index()).reasons
     assert reason.kind is ReasonKind.PLATFORM and reason.fault is None
-    assert reason.text == ("'rocon:/kobuki|pr2/*/noetic' does not include this robot: "
+    assert str(reason) == ("'rocon:/kobuki|pr2/*/noetic' does not include this robot: "
                            'hardware_platform is turtlebot2, application_framework is indigo')
     failed = [field for field, _, _, meets, _ in reason.explanation.fields if not meets]
     assert failed == ['hardware_platform', 'application_framework']
@@ -338,7 +353,7 @@ def test_the_platform_is_explained_field_by_field():
     ('{}', 'compatibility and no launch')])
 def test_a_virtual_rapp_never_runs(text, lacks):
     (reason,) = runnable(read(text), ROBOT, spec_index()).reasons
-    assert reason.kind is ReasonKind.VIRTUAL and reason.text == 'it is virtual: it has no ' + lacks
+    assert reason.kind is ReasonKind.VIRTUAL and str(reason) == 'it is virtual: it has no ' + lacks
 
 
 def test_every_reason_is_there():
@@ -353,7 +368,7 @@ def test_a_compatibility_string_that_cannot_be_read_is_a_reason():
     (reason,) = runnable(rapp_that_requires(compatibility='rocon:/kobukki'), ROBOT,
                          spec_index()).reasons
     assert reason.kind is ReasonKind.PLATFORM and reason.explanation is None
-    assert "hardware_platform 'kobukki' is not registered (did you mean 'kobuki'?)" in reason.text
+    assert "hardware_platform 'kobukki' is not registered (did you mean 'kobuki'?)" in str(reason)
 
 
 def test_on_a_robot_that_nobody_registered_runs_what_runs_anywhere():

@@ -222,16 +222,18 @@ def _remappings(capability: YamlMapping, path: str) -> Dict[str, Dict[str, str]]
             names = _mapping(grouped, group, path)
             for name in names:
                 new_name = _text(names, name, path, shown(name))
-                if new_name is not None:
-                    found.setdefault(kind, {})[str(name)] = new_name
+                if not isinstance(name, str) or new_name is None:
+                    raise YamlError('%s: %s, expected a name and what to call it' % (
+                        shown(name), shown(new_name)), path, *names.key_position(name))
+                found.setdefault(kind, {})[name] = new_name
     return found
 
 
-def _mapping(mapping: YamlMapping, key: str, path: str) -> YamlMapping:
+def _mapping(mapping: Any, key: str, path: str) -> Any:
     """The mapping that a key has, an empty one if there is nothing: also ``[]``, as people do."""
     value = mapping.get(key)
     if value is None or value == []:
-        return YamlMapping(0, 0)
+        return {}
     if not isinstance(value, YamlMapping):
         raise YamlError('%s is %s, expected a mapping' % (key, shown(value)), path,
                         *mapping.value_position(key))

@@ -17,11 +17,10 @@ from __future__ import annotations
 
 import os
 
-from capabilities.spec_index import did_you_mean
 from rocon_uri.rapp import InvalidRapp, Rapp, RequiredCapability, rapp_from_file_path
 from rocon_uri.rapp import rapp_from_string
 from rocon_uri.runnable import Reason, ReasonKind, Verdict, runnable
-from rocon_uri.yaml_source import near_misses, quoted
+from rocon_uri.yaml_source import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -61,7 +60,7 @@ def rapp_file_index_from_package_index(package_index: Mapping[str, Any]) -> Dict
         folder = os.path.dirname(package.filename)
         for export in package.exports:
             if export.tagname == 'rocon_app':
-                path = os.path.join(folder, (export.content or '').strip())
+                path = os.path.join(folder, export.content)
                 index.setdefault(name, []).append(os.path.normpath(path))
     return index
 

@@ -40,12 +40,13 @@ class ReasonKind(Enum):
     DEPENDENCY = 'dependency'
 
 
-class Reason(namedtuple('Reason', 'kind text explanation fault')):
+class Reason(namedtuple('Reason', 'kind problem explanation fault')):
     """
-    One thing that is against running a rapp.
+    One thing that is against running a rapp. Its text is one line.
 
     - ``kind``: `ReasonKind`
-    - ``text``: str of one line
+    - ``problem``: str, what is wrong with the rapp or the platform; '' if a capability is the
+      reason, of which ``fault`` has the text
     - ``explanation``: `rocon_uri.compatibility.Explanation`, of the rapp and the robot, if the
       platform is the reason and could be compared; its text is a table of the fields
     - ``fault``: `capabilities.providers.Fault`, if a capability is the reason
@@ -54,7 +55,11 @@ class Reason(namedtuple('Reason', 'kind text explanation fault')):
     __slots__ = ()
 
     def __str__(self) -> str:
-        return str(self.text)
+        if self.fault is None:
+            return str(self.problem)
+        if self.kind is ReasonKind.CAPABILITY:
+            return str(self.fault)
+        return 'capability %s cannot be started: %s' % (quoted(self.fault.asked_for), self.fault)
 
 
 class Verdict(namedtuple('Verdict', 'rapp reasons providers')):
@@ -109,10 +114,9 @@ def runnable(rapp: Rapp, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
 
 
 def _capability_reason(fault: Fault) -> Reason:
-    if fault.required_by is None and fault.kind not in (FaultKind.CYCLE, FaultKind.CONFLICT):
-        return Reason(ReasonKind.CAPABILITY, str(fault), None, fault)
-    text = 'capability %s cannot be started: %s' % (quoted(fault.asked_for), fault)
-    return Reason(ReasonKind.DEPENDENCY, text, None, fault)
+    is_its_own = fault.required_by is None and fault.kind not in (FaultKind.CYCLE,
+                                                                  FaultKind.CONFLICT)
+    return Reason(ReasonKind.CAPABILITY if is_its_own else ReasonKind.DEPENDENCY, '', None, fault)
 
 
 def _platform_reasons(rapp: Rapp, robot_uri: Union[str, RoconURI]) -> Iterator[Reason]:

@@ -42,6 +42,8 @@ if TYPE_CHECKING:
 
 __all__ = ['add_arguments', 'main']
 
+_REASONS_SHOWN = 20     # of one app; a person has enough by then
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the verb takes."""
@@ -132,8 +134,10 @@ def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool) -> None:
         print('and cannot run:')
         for verdict in others:
             print('  ' + _line(verdict, width, 'red'))
-            for reason in verdict.reasons:
+            for reason in verdict.reasons[:_REASONS_SHOWN]:
                 _show_reason(reason)
+            if len(verdict.reasons) > _REASONS_SHOWN:
+                print('      and %d more' % (len(verdict.reasons) - _REASONS_SHOWN))
     if show_all and virtual:
         print('Virtual, as parents of others: %s'
               % ', '.join(printable(verdict.rapp.name) for verdict in virtual))
@@ -147,7 +151,7 @@ def _line(verdict: Verdict, width: int, style: str) -> str:
 
 
 def _show_reason(reason: Reason) -> None:
-    print('      ' + printable(reason.text))
+    print('      ' + printable(reason))
     if reason.explanation is not None:
         for line in str(reason.explanation).splitlines()[1:]:   # without the verdict
             print('        ' + painter()(line, 'faint'))
@@ -161,7 +165,7 @@ def _as_json(verdict: Verdict) -> Dict[str, Any]:
         'launch': rapp.files.get('launch'), 'runs': bool(verdict),
         'virtual': not rapp.is_implementation, 'providers': list(verdict.providers),
         'reasons': [{
-            'kind': reason.kind.value, 'text': reason.text,
+            'kind': reason.kind.value, 'text': str(reason),
             'fields': _fields(reason),
             'fault': None if reason.fault is None else reason.fault.to_dict(),
         } for reason in verdict.reasons],

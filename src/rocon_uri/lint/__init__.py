@@ -12,7 +12,6 @@ from __future__ import annotations
 import os
 
 from capabilities.discovery import package_index_from_package_path
-from capabilities.spec_index import did_you_mean
 from rocon_uri.lint.checked_file import is_inside
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.lint.interactions_files import check_interactions_file, interactions_files
@@ -20,7 +19,7 @@ from rocon_uri.lint.manifest import check_exports
 from rocon_uri.lint.rapp_files import check_rapp
 from rocon_uri.lint.spec_files import check_spec
 from rocon_uri.lint.surroundings import Surroundings
-from rocon_uri.yaml_source import YamlError
+from rocon_uri.yaml_source import YamlError, did_you_mean
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -4,12 +4,11 @@ from __future__ import annotations
 import os
 import re
 
-from capabilities.spec_index import did_you_mean
 from rocon_uri.exceptions import RoconURIValueError, near_misses, quoted
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.ros_names import is_legal_base_name, is_legal_name
 from rocon_uri.uri import parse
-from rocon_uri.yaml_source import YamlError, load_file, read_file
+from rocon_uri.yaml_source import YamlError, did_you_mean, load_file, read_file
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -101,7 +100,7 @@ class CheckedFile:
         for key in mapping:
             if key not in known:
                 self.warn('unknown key %s in %s%s' % (
-                    quoted(str(key)), what, did_you_mean(near_misses(str(key), known))),
+                    quoted(str(key)), what, self._suggestion(str(key), known)),
                     mapping.key_position(key))
 
     def check_file(self, name: str, what: str, place: Place, *folders: str,
@@ -133,9 +132,10 @@ class CheckedFile:
         if name in known:
             return True
         package, _, own_name = name.partition('/')
-        near = near_misses(name, [other for other in known if other.startswith(package + '/')
-                                  or other.endswith('/' + own_name)])
-        self.error('%s %s does not exist%s' % (what, quoted(name), did_you_mean(near)), place)
+        alike = (other for other in known     # of all names, there may be too many
+                 if other.startswith(package + '/') or other.endswith('/' + own_name))
+        self.error('%s %s does not exist%s' % (
+            what, quoted(name), self._suggestion(name, alike)), place)
         return False
 
     def check_remapped_names(self, kind: str, new_names: Any, interface: CapabilityInterface,
@@ -152,10 +152,10 @@ class CheckedFile:
             place = new_names.key_position(name)
             if name not in names:
                 # Transports publish below a topic: image, image/compressed.
-                below = any(name.startswith(known + '/') for known in names)
-                self.add(WARNING if below else ERROR, '%s has no %s in %s to remap%s' % (
+                is_below = name.rpartition('/')[0] in names
+                self.add(WARNING if is_below else ERROR, '%s has no %s in %s to remap%s' % (
                     quoted(interface.name), quoted(name), kind,
-                    did_you_mean(near_misses(name, names))), place)
+                    self._suggestion(name, names)), place)
             self.check_ros_name(new_name, 'new name', new_names.value_position(name))
 
     def check_compatibility(self, text: str, vocabulary: Vocabulary, place: Place) -> None:
@@ -163,7 +163,7 @@ class CheckedFile:
         try:
             uri = parse(text, vocabulary)
         except RoconURIValueError as error:
-            hint = did_you_mean(error.suggestions)
+            hint = did_you_mean(error.suggestions) if self._has_few_findings() else ''
             self.error('compatibility: %s%s%s' % (
                 error.problem, hint, '; ' + error.advice if error.advice else ''),
                 self._place_in_text(text, error.span[0], place))
@@ -172,6 +172,13 @@ class CheckedFile:
             self.warn('compatibility: %s is read as %s, since %s is a hardware_platform and no '
                       'concert' % (quoted(text), quoted(uri.short), uri.hardware_platform),
                       self._place_in_text(text, 0, place))
+
+    def _suggestion(self, text: str, candidates: Iterable[str]) -> str:
+        return did_you_mean(near_misses(text, candidates)) if self._has_few_findings() else ''
+
+    def _has_few_findings(self) -> bool:
+        """Are there no more than a person reads? Near misses take long to find."""
+        return len(self.findings) < 20
 
     def _place_in_text(self, text: str, index: int, place: Place) -> Place:
         """Where a character of a text stands that begins here, behind a quotation mark or not."""

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import os
 
-from capabilities.spec_index import did_you_mean
 from rocon_uri.exceptions import near_misses, quoted
 from rocon_uri.lint.checked_file import CheckedFile
-from rocon_uri.yaml_source import YamlMapping, YamlSequence
+from rocon_uri.yaml_source import YamlMapping, YamlSequence, did_you_mean
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

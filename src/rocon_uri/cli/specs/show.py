@@ -20,7 +20,7 @@ from __future__ import annotations
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.packages import (
     PackageReport, Packages, add_package_path, escape_unencodable, package_path, printable)
-from rocon_uri.exceptions import near_misses, quoted
+from rocon_uri.yaml_source import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -45,8 +45,8 @@ def main(args: argparse.Namespace) -> int:
     spec = index.specs.get(args.name)
     if spec is None:
         meant = _meant(args.name, index.names)
-        hint = ' (did you mean %s?)' % ' or '.join(map(quoted, meant)) if meant else ''
-        report.bad('no spec has the name %s%s' % (quoted(args.name), hint), suggestions=meant)
+        report.bad('no spec has the name %s%s' % (quoted(args.name), did_you_mean(meant)),
+                   suggestions=meant)
     shown = Shown(spec, index)
     if args.json:
         print_json({
