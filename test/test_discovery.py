@@ -315,6 +315,14 @@ class TestSpecsThatAreLeftOut:
         assert isinstance(error, InvalidInterface)
         assert error.file_name == str(tmp_path / 'bad' / 'Camera.yaml')
 
+    def test_a_spec_with_the_name_of_another_package(self, tmp_path: Path) -> None:
+        [error] = self.errors_beside_a_good_spec(
+            tmp_path, (INTERFACE, 'Camera.yaml', SPEC[INTERFACE] % 'a_package/Camera'))
+        assert isinstance(error, InvalidSpec)
+        assert str(error) == (
+            "%s:1:7: name 'a_package/Camera' is not of package 'bad_package', which exports it"
+            % (tmp_path / 'bad' / 'Camera.yaml'))
+
     def test_a_spec_exported_as_one_of_another_kind(self, tmp_path: Path) -> None:
         [error] = self.errors_beside_a_good_spec(
             tmp_path, (PROVIDER, 'Camera.yaml', SPEC[INTERFACE] % 'Camera'))
@@ -461,6 +469,13 @@ class TestSpecIndex:
         index.add_provider(provider, 'one.yaml', 'c')
         assert provider.name == 'c/one'
         assert index.providers_of('a/Camera') == ['c/three', 'c/one']
+
+    def test_a_spec_is_not_added_by_the_name_of_another_package(self, index: SpecIndex) -> None:
+        interface = CapabilityInterface('a/Laser', 1)
+        with pytest.raises(InvalidSpec, match="^laser.yaml: name 'a/Laser' is not of package 'b'"):
+            index.add_interface(interface, 'laser.yaml', 'b')
+        index.add_interface(interface, 'laser.yaml', 'a')
+        assert interface.name == 'a/Laser' and index.interfaces['a/Laser'] is interface
 
     @pytest.mark.parametrize('name, kind', [
         ('Camera', 'an interface'), ('Front', 'a semantic interface'), ('one', 'a provider')])

@@ -205,7 +205,8 @@ def spec_index_from_spec_file_index(
     :returns: (`SpecIndex`, list of the errors). A spec that is left out is there as
 
         - `OSError`, if its file cannot be read,
-        - `capabilities.specs.common.InvalidSpec`, if it is not valid,
+        - `capabilities.specs.common.InvalidSpec`, if it is not valid, or has the name of another
+          package in front of its own,
         - `DuplicateNameException`, if there is a spec of that name already,
         - `InterfaceNameNotFoundException`, if the interface that it stands on is not there.
 

@@ -3,12 +3,14 @@ All capability specs of a package path, each by its name, ``package/name``.
 
 A `SpecIndex` hands out the specs themselves, in dicts and lists that are made for each call: to
 change one of those does not change the index, to change a spec does. What it refuses is raised, as
-`DuplicateNameException` or `InterfaceNameNotFoundException`.
+`DuplicateNameException`, `InterfaceNameNotFoundException` or, where the name of another package is
+in front of its own, `capabilities.specs.common.InvalidSpec`.
 
 It is usually made by `capabilities.discovery.spec_index_from_spec_file_index`.
 """
 from __future__ import annotations
 
+from capabilities.specs.common import InvalidSpec
 from rocon_uri.yaml_source import YamlMapping, did_you_mean, located, near_misses, quoted
 
 TYPE_CHECKING = False
@@ -182,6 +184,7 @@ class SpecIndex:
         :param interface: `CapabilityInterface`; left as it is if it is refused
         :param str file_path: where it was read from
         :param str package_name: the package that exports it
+        :raises InvalidSpec: if it has the name of another package already
         :raises DuplicateNameException: if the name is taken
         """
         name = self._free_name(interface, file_path, package_name)
@@ -196,6 +199,7 @@ class SpecIndex:
         :param semantic_interface: `SemanticCapabilityInterface`; left as it is if it is refused
         :param str file_path: where it was read from
         :param str package_name: the package that exports it
+        :raises InvalidSpec: if it has the name of another package already
         :raises DuplicateNameException: if the name is taken
         :raises InterfaceNameNotFoundException: if the interface that it redefines is not there; a
             semantic interface cannot be redefined
@@ -220,6 +224,7 @@ class SpecIndex:
         :param provider: `CapabilityProvider`; left as it is if it is refused
         :param str file_path: where it was read from
         :param str package_name: the package that exports it
+        :raises InvalidSpec: if it has the name of another package already
         :raises DuplicateNameException: if the name is taken
         :raises InterfaceNameNotFoundException: if neither an interface nor a semantic interface of
             the name that it implements is there
@@ -267,9 +272,12 @@ class SpecIndex:
         del self._providers_of[self._implemented.pop(name)][name]
 
     def _free_name(self, spec: Spec, file_path: str, package_name: str) -> str:
-        """The name to add a spec by; one that was taken out of an index has it already."""
-        own = spec.name.startswith(package_name + '/')
-        name = spec.name if own else package_name + '/' + spec.name
+        """The name to add a spec by, which it may have already: ``package/name``."""
+        package, _, own_name = spec.name.rpartition('/')
+        if package not in ('', package_name):
+            raise InvalidSpec('name %s is not of package %s, which exports it' % (
+                quoted(spec.name), quoted(package_name)), str(file_path), *_position(spec, 'name'))
+        name = '%s/%s' % (package_name, own_name)
         for kind, entries in (('an interface', self._interfaces),
                               ('a semantic interface', self._semantic_interfaces),
                               ('a provider', self._providers)):
