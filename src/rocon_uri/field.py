@@ -165,8 +165,7 @@ class ValuesField(Field):
 
     def includes(self, other: 'ValuesField') -> bool:
         """Are all values of the other here too? Both are of one vocabulary."""
-        return self.is_any or (not other.is_any and not other.mask & ~self.mask
-                               and other.others <= self.others)
+        return self.is_any or not other.mask & ~self.mask and other.others <= self.others
 
     def shared(self, other: 'ValuesField') -> str:
         """What both have in common, as the text of a field; '' for nothing."""

@@ -95,7 +95,7 @@ def take_apart(text: str, vocabulary: Vocabulary,
              for field, (raw, start) in zip(_FIELDS, written)}
     _check_characters(text)
     _check_fields(text, parts, more, match.end(6))
-    if strict and match.group(1) is None and not match.group(2) and match.group(3):
+    if strict and not match.group(2) and match.group(3):
         raise RoconURIValueError('the slash before the hardware_platform is missing', text,
                                  span=match.span(3), advice="write 'rocon:/'")
     return parts, vocabulary, with_one_slash
@@ -154,7 +154,7 @@ def read_rocon_app(text: str) -> str:
     :returns: str
     :raises RoconURIValueError: if it is not legal
     """
-    if text and not all(map(is_legal_base_name, text.split('/', 2))) or text.count('/') > 1:
+    if text and not all(map(is_legal_base_name, text.split('/', 1))):
         raise RoconURIValueError(
             'rocon_app %s is not of the form package/name or name, each a ROS base name'
             % quoted(text), text, 'rocon_app', text)
