@@ -154,6 +154,7 @@ def test_open_values_are_compared_as_values():
             ('bender', 'bender', True, 'equal'), ('bender', 'flexo', False, 'disjoint'),
             ('bender', '*', True, 'subset'), ('bender', 'robot', False, 'disjoint'),
             ('bender|pr2', 'bender|kobuki', True, 'overlap'),
+            ('bender|pr2', 'robot', True, 'overlap'),
             ('bender|robot', 'bender|pr2', True, 'superset')]:
         first, second = parse('rocon:/' + a, everything), parse('rocon:/' + b, everything)
         assert is_compatible(first, second) is is_compatible(second, first) is compatible
