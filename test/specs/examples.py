@@ -103,6 +103,8 @@ BAD = _bad('interface', '', [
     ('spec_type: interface\nspec_version: 1\nname: ""', '3:7: name is empty, expected text'),
     ('spec_type: interface\nspec_version: 1\nname: 3d', "3:7: name '3d' is not legal, expected a "
      'letter, then letters, digits and underscores'),
+    ('spec_type: interface\nspec_version: 1\nname: "a\\n"', "3:7: name 'a\\n' is not legal, "
+     'expected a letter, then letters, digits and underscores'),
     ('spec_type: interface\nspec_version: 1\nname: a/b/c', "3:7: name 'a/b/c' is not legal, "
      'expected a letter, then letters, digits and underscores'),
 ]) + _bad('interface', INTERFACE, [
@@ -160,6 +162,7 @@ BAD = _bad('interface', '', [
     ('launch_file: ""', '5:14: launch_file is empty, expected text'),
     ('nodelet_manager: 3', '5:18: nodelet_manager is 3, expected text'),
     ('depends_on: Usb', "5:13: depends_on is 'Usb', expected package/name"),
+    ('depends_on: "a/B\\n"', "5:13: depends_on is 'a/B\\n', expected package/name"),
     ('depends_on: ""', '5:13: depends_on is empty, expected package/name'),
     ('depends_on: 3', '5:13: depends_on is 3, expected the name of an interface, a list of names '
                       'or a mapping'),
