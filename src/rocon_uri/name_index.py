@@ -11,9 +11,10 @@ from itertools import compress
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Dict, Iterable, List, Mapping, Tuple
+    from typing import Callable, Dict, Iterable, List, Mapping, Tuple
     from rocon_uri.name_pattern import NamePattern
     from rocon_uri.uri import RoconURI
+    Matcher = Callable[[List[str]], Iterable[bool]]
 
 __all__ = ['NameIndex']
 
@@ -32,8 +33,9 @@ class NameIndex:
     >>> from rocon_uri import name_pattern, parse
     >>> names = NameIndex({1: parse('rocon:/pr2/bob_2'), 2: parse('rocon:/pr2/bob_1'),
     ...                    3: parse('rocon:/pr2/al_1')})
-    >>> names.numbers(name_pattern.read('bob_*')), names.numbers(name_pattern.read('*_1'))
-    ([2, 1], [3, 2])
+    >>> bob = name_pattern.read('bob_*')
+    >>> names.numbers(bob, bob.matches_in_order())
+    [2, 1]
     """
 
     __slots__ = ('_resources', '_orders', '_changes')
@@ -70,25 +72,28 @@ class NameIndex:
             self._orders.clear()
         return self._orders.items()
 
-    def numbers(self, pattern: NamePattern) -> List[int]:
+    def numbers(self, pattern: NamePattern, matches_in_order: Matcher) -> List[int]:
         """
         The resources whose name a pattern admits.
 
         :param NamePattern pattern: any but ``*``
+        :param matches_in_order: what its method of that name returned
         :returns: list of int, their numbers, in no order to rely on
         """
         prefix, suffix = pattern.prefix, pattern.suffix
         if pattern.literal is not None:
             return self._order(False).equal_to(prefix)
-        names, numbers = (self._order(False).starting_with(prefix)
-                          if prefix or not suffix else ([], []))
+        matches, names, numbers = matches_in_order, [], []
+        if prefix or not suffix:
+            names, numbers = self._order(False).starting_with(prefix)
         if suffix and (len(numbers) > 1 or not prefix):
             reversed_names, ending = self._order(True).starting_with(suffix[::-1])
             if not prefix or len(ending) < len(numbers):
                 names, numbers = [name[::-1] for name in reversed_names], ending
+                matches = pattern.matches_each
         if pattern.text in (prefix + '*', '*' + suffix):
             return numbers
-        return list(compress(numbers, pattern.matches_each(names)))
+        return list(compress(numbers, matches(names)))
 
     def _order(self, backwards: bool) -> _Order:
         self._changes = 0

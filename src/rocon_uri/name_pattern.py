@@ -123,6 +123,18 @@ class NamePattern:
         """
         return map(self.matches, names)
 
+    def matches_in_order(self) -> Callable[[List[str]], Iterable[bool]]:
+        """
+        `matches` for a great many names, which come in several lists.
+
+        :returns: callable that takes a list of legal names in alphabetical order, and returns an
+            iterable of bool; it may remember what was in the lists before
+
+        >>> list(read('[a-c].*').matches_in_order()(['alice', 'bob', 'marvin']))
+        [True, True, False]
+        """
+        return self.matches_each
+
     def intersects(self, other: NamePattern) -> bool:
         """
         Is there a name that both admit?
@@ -134,14 +146,16 @@ class NamePattern:
         >>> read('dud*').intersects(read('[a-z]+'))
         True
         """
-        if self.literal is not None:
-            return other.matches(self.literal)
-        if other.literal is not None:
-            return self.matches(other.literal)
         longer, shorter = sorted((self.prefix, other.prefix), key=len, reverse=True)
         ending, end = sorted((self.suffix, other.suffix), key=len, reverse=True)
         if not longer.startswith(shorter) or not ending.endswith(end):
             return False
+        if self.literal is not None:
+            return other.matches(self.literal)
+        if other.literal is not None:
+            return self.matches(other.literal)
+        if self.text == other.text:
+            return True
         # Between a prefix and a suffix, globs leave room for whatever the other one wants.
         if isinstance(self, Glob) and isinstance(other, Glob) or self.is_any or other.is_any:
             return True
@@ -302,6 +316,10 @@ class RegularExpression(NamePattern):
 
     def matches_each(self, names: Iterable[str]) -> Iterable[bool]:
         return map(self._language().matches, names)
+
+    def matches_in_order(self) -> Callable[[List[str]], Iterable[bool]]:
+        from rocon_uri.regular_walk import Walk     # which only many names need
+        return Walk(self._language()).matches
 
     def _tree(self, text: str) -> Node:
         from rocon_uri.regular_syntax import parse      # which only patterns need

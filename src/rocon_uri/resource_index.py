@@ -255,7 +255,7 @@ class _Kind:
         """The numbers of the resources whose name the request admits, or may admit."""
         if verdicts.name.is_any:
             return self.resources
-        found = self._names.numbers(verdicts.name)
+        found = self._names.numbers(verdicts.name, verdicts.matches_in_order)
         for pattern, numbers in self._patterned.items():
             verdict = verdicts[pattern]
             if verdict:
@@ -270,10 +270,13 @@ class _Verdicts(Verdicts):
     Does a pattern meet the name of the request? None where that takes too much work to decide.
 
     :param NamePattern name: what the request says
+
+    ``name`` is an attribute too, and ``matches_in_order`` what its method returned.
     """
 
     def __init__(self, name: NamePattern) -> None:
         self.name = name
+        self.matches_in_order = name.matches_in_order()
 
     def __missing__(self, pattern: NamePattern) -> Optional[bool]:
         try:

@@ -1,0 +1,107 @@
+"""
+Which of a million names a regular language has.
+
+In alphabetical order, names that start alike are read at once as far as they do, and where that
+decides about them, they are read no further.
+"""
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from functools import reduce
+from operator import getitem
+from os.path import commonprefix
+
+from rocon_uri.regular_language import BEGIN
+from rocon_uri.regular_tree import ALPHABET
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Dict, List
+    from rocon_uri.regular_language import Language
+    Derivatives = Dict[str, '_Derivative']
+else:
+    Derivatives = dict
+
+__all__ = ['Walk']
+
+_FEW = 50               # names, for which it costs more to find out what they share than it saves
+_DERIVATIVES = 1024     # remembered
+_AFTER_NAMES = '\x7f'   # greater than any character of a name
+
+
+class Walk:
+    """
+    Names that are many, read by one language.
+
+    :param Language language: any
+
+    >>> from rocon_uri.regular_language import Language
+    >>> from rocon_uri.regular_syntax import parse
+    >>> Walk(Language('bo*b', parse('bo*b'))).matches(['al', 'bob', 'bobby', 'boob'])
+    [False, True, False, True]
+    """
+
+    def __init__(self, language: Language) -> None:
+        self.language = language
+        self._derivatives: Dict[int, _Derivative] = {}
+
+    def matches(self, names: List[str]) -> List[bool]:
+        """
+        Are these names in the language?
+
+        :param names: list of str, legal ROS names in alphabetical order
+        :returns: list of bool
+        """
+        matches = [False] * len(names)
+        ranges = [(0, len(names), 0, self.derivative(BEGIN))]
+        while ranges:
+            # names[start:end] share the characters up to depth, which led here
+            start, end, depth, here = ranges.pop()
+            if end - start <= _FEW:
+                matches[start:end] = [reduce(getitem, name[depth:], here).accepts
+                                      for name in names[start:end]]
+                continue
+            shared = commonprefix((names[start], names[end - 1]))
+            here = reduce(getitem, shared[depth:], here)
+            if here.decides():
+                matches[start:end] = [here.accepts] * (end - start)
+                continue
+            same = bisect_right(names, shared, start, end)
+            matches[start:same] = [here.accepts] * (same - start)
+            while same < end:
+                start, following = same, names[same][:len(shared) + 1]
+                same = bisect_left(names, following + _AFTER_NAMES, start, end)
+                ranges.append((start, same, len(shared), here))
+        return matches
+
+    def derivative(self, positions: int) -> _Derivative:
+        """What is left of the language when these positions have just been read."""
+        found = self._derivatives.get(positions)
+        if found is None:
+            if len(self._derivatives) >= _DERIVATIVES:
+                for known in self._derivatives.values():
+                    known.clear()       # since they hold each other
+                self._derivatives.clear()
+            found = self._derivatives[positions] = _Derivative(self, positions)
+        return found
+
+
+class _Derivative(Derivatives):
+    """What is left of a language: by each next character, what is left then."""
+
+    __slots__ = ('accepts', '_positions', '_walk')
+
+    def __init__(self, walk: Walk, positions: int) -> None:
+        self.accepts = positions & walk.language.last != 0
+        self._positions = positions
+        self._walk = walk
+
+    def __missing__(self, char: str) -> _Derivative:
+        language = self._walk.language
+        readers = language.readers[language.char_class[char]]
+        self[char] = self._walk.derivative(language.following(self._positions) & readers)
+        return self[char]
+
+    def decides(self) -> bool:
+        """Is it all the same what follows?"""
+        return all(self[char] is self for char in ALPHABET)

@@ -1,0 +1,37 @@
+"""Many names in order are matched as each of them is."""
+import itertools
+
+import pytest
+
+from rocon_uri import name_pattern
+
+NAMES = sorted(
+    [first + ''.join(rest) for first in 'abz' for length in range(6)
+     for rest in itertools.product('ab_7', repeat=length)]
+    + ['a' + ''.join(rest) for rest in itertools.product('ab', repeat=11)]
+    + ['ab_7'] * 70 + ['z' * 255])
+
+
+@pytest.mark.parametrize('text', [
+    'bob', '*', 'a*', '*7', 'a*_*7',
+    'a.*', '(ab|z).*', '[ab]+', '.*7', '[a-z]+_?7*', '(a|b)*a(a|b){3}', 'ab_7', 'zz(z|7){0,3}', '.+z',
+    '[^z].*', '(a|b)*a(a|b){10}',       # which has more derivatives than are remembered
+])
+def test_names_in_order_are_matched_as_each_of_them_is(text):
+    pattern = name_pattern.read(text)
+    expected = [pattern.matches(name) for name in NAMES]
+    matches = pattern.matches_in_order()
+    assert list(matches(NAMES)) == expected
+    assert list(matches(NAMES[::3])) == expected[::3]
+    assert list(matches([])) == []
+
+
+def test_names_that_are_decided_are_not_read():
+    class Unread(str):
+        def __getitem__(self, index):
+            raise AssertionError('somebody reads this name')
+    names = ['a%04d' % number for number in range(1000)]
+    unread = ['b%04d' % number for number in range(1000)]
+    matches = name_pattern.read('[bc].*').matches_in_order()
+    decided = matches(names + unread[:1] + list(map(Unread, unread[1:-1])) + unread[-1:])
+    assert list(decided) == [False] * 1000 + [True] * 1000
