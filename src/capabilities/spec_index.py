@@ -25,8 +25,7 @@ if TYPE_CHECKING:
     S = TypeVar('S')
     Entries = Dict[str, Tuple[S, str]]      # what is there and its path, by name
 
-__all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'SpecIndex',
-           'did_you_mean']
+__all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'SpecIndex']
 
 
 class _RefusedSpec(Exception):
