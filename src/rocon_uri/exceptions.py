@@ -10,7 +10,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Callable, Iterable, List, Optional, Tuple
 
-__all__ = ['PatternTooComplex', 'RoconURIValueError', 'near_misses', 'quoted']
+__all__ = ['PatternTooComplex', 'RoconURIValueError', 'did_you_mean', 'near_misses', 'quoted']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _NEAR_LENGTH = 64       # a longer text is nobody's typing error; bounds the cost of the search
@@ -48,6 +48,20 @@ def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
     by_lower = {candidate.lower(): candidate for candidate in sorted(candidates)}
     found = difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.7)
     return [by_lower[name] for name in found]
+
+
+def did_you_mean(suggestions: Iterable[str]) -> str:
+    """
+    The end of an error that knows what was probably meant.
+
+    :param suggestions: iterable of str, the likeliest first
+    :returns: str, empty if there are none
+
+    >>> did_you_mean(['a_package/RGBCamera'])
+    " (did you mean 'a_package/RGBCamera'?)"
+    """
+    meant = ' or '.join(map(quoted, suggestions))
+    return ' (did you mean %s?)' % meant if meant else ''
 
 
 class RoconURIValueError(ValueError):
@@ -132,10 +146,7 @@ class RoconURIValueError(ValueError):
         return '\n'.join(lines)
 
     def _headline(self) -> str:
-        suggestions = self.suggestions
-        if not suggestions:
-            return self.problem
-        return '%s (did you mean %s?)' % (self.problem, ' or '.join(map(quoted, suggestions)))
+        return self.problem + did_you_mean(self.suggestions)
 
     def _marked_uri(self) -> Tuple[str, str]:
         """The part of the URI around the fault, and a line of carets for below it."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import os
-from _thread import RLock       # as functools has it: to import threading takes longer than to parse
+from _thread import RLock       # as functools does: threading takes longer than parsing
 
 from rocon_uri.exceptions import quoted
 from rocon_uri.field_vocabulary import FieldVocabulary, RulesError, members

@@ -40,12 +40,12 @@ from __future__ import annotations
 
 import re
 
-from rocon_uri.exceptions import near_misses, quoted
+from rocon_uri.exceptions import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from os import PathLike
-    from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
+    from typing import Any, Dict, List, Optional, Tuple, Union
 
     Position = Tuple[int, int]
 
@@ -74,20 +74,6 @@ def located(problem: str, file_name: str, line: Optional[int], column: Optional[
     """
     place = file_name if line is None else '%s:%s:%s' % (file_name, line, column)
     return ''.join(c if c.isprintable() else repr(c)[1:-1] for c in '%s: %s' % (place, problem))
-
-
-def did_you_mean(suggestions: Iterable[str]) -> str:
-    """
-    The end of an error that knows what was probably meant.
-
-    :param suggestions: iterable of str, the likeliest first
-    :returns: str, empty if there are none
-
-    >>> did_you_mean(['a_package/RGBCamera'])
-    " (did you mean 'a_package/RGBCamera'?)"
-    """
-    meant = ' or '.join(map(quoted, suggestions))
-    return ' (did you mean %s?)' % meant if meant else ''
 
 
 class YamlError(ValueError):

@@ -1,6 +1,7 @@
 """The URIs that a verb is given, as arguments and in files, and a report of the bad ones."""
 from __future__ import annotations
 
+import itertools
 import sys
 
 from rocon_uri.cli.lines import read_lines
@@ -113,11 +114,11 @@ class Report:
         :returns: iterator of lists of GivenURI, each of what can be had without waiting
         """
         name = '<stdin>' if path == '-' else path
-        number = 0
+        numbers = itertools.count(1)
         try:
             for lines in read_lines(path):
                 batch = []
-                for number, line in enumerate(lines, number + 1):
+                for line, number in zip(lines, numbers):
                     text = line.strip()
                     if text and line[0] != '#':
                         given = self.read(text, name, number)
