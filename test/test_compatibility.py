@@ -159,6 +159,11 @@ def test_one_open_vocabulary_opens_the_other():
     assert is_compatible(parse('rocon:/*/bob'), bender)
     assert relation(bender, 'rocon:/') is Relation.SUBSET
     assert relation(bender, 'rocon:/robot') is Relation.DISJOINT
+    closed = parse('rocon:/robot|*', Vocabulary.bundled())      # a newer one
+    assert is_compatible(bender, closed) and is_compatible(closed, bender)
+    assert relation(bender, closed) is Relation.SUBSET
+    pr2 = parse('rocon:/pr2', closed.vocabulary)
+    assert not is_compatible(bender, pr2) and not is_compatible(pr2, bender)
 
 
 # Explanations
@@ -215,6 +220,13 @@ def test_values_of_an_open_vocabulary_are_shared():
         '  name                   bob     bob*        bob',
         '  application_framework  *       noetic      noetic',
         '  operating_system       *       *           *']),
+    ('rocon:/*/bob*', 'rocon:/*/bob', [
+        'compatible',
+        '  field                  first  second  in common',
+        '  hardware_platform      *      *       *',
+        '  name                   bob*   bob     bob',
+        '  application_framework  *      *       *',
+        '  operating_system       *      *       *']),
     ('rocon://north/kobuki/*_left/ros', 'rocon://south/pr2/arm_*/noetic', [
         'not compatible',
         '   field                  first   second  in common',
