@@ -261,6 +261,7 @@ def test_what_the_other_fields_decide_is_not_asked_of_the_names():
                              parse(b).replace(concert_name='south'))
     assert relation(parse(a).replace(operating_system='osx'),
                     parse(b).replace(operating_system='web')) is Relation.DISJOINT
+    assert is_compatible(a, a) and relation(a, a) is Relation.EQUAL
     assert is_compatible(a, 'rocon:/')
     assert not is_compatible(a, 'rocon:/*/aba')
 
