@@ -102,7 +102,7 @@ def _exported_paths() -> Dict[str, List[str]]:
         manifest = os.path.join(folder, 'package.xml')
         # rospkg itself gives up at the first manifest that is no XML, and loads rosdep to read one.
         try:
-            package = ElementTree.parse(manifest)
+            package = ElementTree.fromstring(_manifest(manifest))
         except Exception as error:      # whatever is wrong with somebody's package
             _warn('rules of a package left out: %s: %s', manifest, error)
             continue
@@ -110,6 +110,17 @@ def _exported_paths() -> Dict[str, List[str]]:
         exported.setdefault((package.findtext('name') or folder).strip(), [
             os.path.join(folder, path.replace('${prefix}', folder)) for path in rules if path])
     return exported
+
+
+def _manifest(path: str) -> bytes:
+    """The content of a package.xml; OSError or ValueError for what is not read, as a FIFO."""
+    from rocon_uri.yaml_source import MAX_SIZE, read_file       # which a known value does not need
+    content = read_file(path)
+    if len(content) > MAX_SIZE:
+        raise ValueError('larger than 1 MiB, which is all that is read')
+    if '<!ENTITY' in content.decode('utf-8'):   # of which not every expat bounds the expansion
+        raise ValueError('it declares entities, and those are not read')
+    return content
 
 
 def _package_folders(ros_paths: List[str]) -> Iterator[str]:
