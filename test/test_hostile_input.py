@@ -154,6 +154,7 @@ AS_OTHERS_DO = [] if os.geteuid() else [
 @pytest.fixture
 def workspace(tmp_path):
     """A package with nothing wrong, to which others can be added."""
+    pytest.importorskip('rospkg', reason='match finds packages with it')
     add_package(tmp_path, 'good', {
         'capability_interface': 'Camera.yaml', 'capability_provider': 'camera.yaml',
         'rocon_app': 'look.rapp', 'rules': 'robots.yaml'},
