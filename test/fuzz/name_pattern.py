@@ -102,14 +102,13 @@ def is_in_grammar(text):
         return False
     if re.fullmatch(r'[\w*]*', text, re.ASCII):
         return text != ''
-    counts = [count.split(',') for count in re.findall(r'\{(\d+(?:,\d*)?)\}', text)]
+    counts = re.findall(r'\{(\d+),?(\d*)\}', text)
     ends = re.findall('(.)-(.)', text)
     text = CLASS.sub('a', text)
     while GROUP.search(text):
         text = GROUP.sub('a', text)
     return (REGEX.fullmatch(text) is not None and all(start <= end for start, end in ends)
-            and all(int(low) <= int(high[0] or 255 if high else 0) <= 255 if high
-                    else int(low) <= 255 for low, *high in counts))
+            and all(int(low) <= int(high or 255) <= 255 for low, high in counts))
 
 
 def expected_names(text):
