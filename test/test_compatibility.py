@@ -1,6 +1,10 @@
 """Compatible or not, how two URIs lie to each other, and why."""
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+
 import pytest
 
 from rocon_uri import (PatternTooComplex, Relation, RoconURI, RoconURIValueError, Vocabulary,
@@ -251,6 +255,29 @@ def test_a_question_that_is_too_hard_is_refused_where_it_is_asked():
         assert '\n' not in str(caught.value)
     with pytest.raises(PatternTooComplex):
         parse(a).isdisjoint(b)
+
+
+def test_an_explanation_leaves_names_undecided_where_another_field_decides():
+    a, b = HARD
+    verdict = explain(parse(a).replace(hardware_platform='pr2'),
+                      parse(b).replace(hardware_platform='kobuki'))
+    assert not verdict.is_compatible
+    assert {c.field: c.is_compatible for c in verdict.fields} == {
+        'hardware_platform': False, 'name': None, 'application_framework': True,
+        'operating_system': True}
+    assert 'too complex to say' in str(verdict)
+
+
+def test_a_vocabulary_that_was_given_is_the_one_that_both_are_read_with():
+    # whichever was made first; in a process of its own, where the default one is made last
+    subprocess.run([sys.executable, '-c', """
+from rocon_uri import Relation, Vocabulary, is_compatible, parse, relation
+ours = Vocabulary.bundled().extended({'hardware_platform': {'robot': ['ours']}})
+for _ in range(2):      # the second time, the default one has been completed
+    assert is_compatible(parse('rocon:/ours', ours), 'rocon:/robot')
+    assert is_compatible('rocon:/robot', parse('rocon:/ours', ours.opened()))
+    assert relation(parse('rocon:/ours', ours), 'rocon:/robot') is Relation.SUBSET
+"""], check=True, env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)))
 
 
 def test_what_the_other_fields_decide_is_not_asked_of_the_names():

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import namedtuple
 from enum import Enum
 
+from rocon_uri.exceptions import PatternTooComplex
 from rocon_uri.field import UnregisteredValue
 from rocon_uri.name_pattern import ANY
 from rocon_uri.uri import RoconURI, aligned, parse
@@ -16,7 +17,7 @@ from rocon_uri.vocabulary import Vocabulary
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import List, Tuple, Union
+    from typing import Dict, List, Optional, Tuple, Union
     Resource = Union[str, RoconURI]
 
 __all__ = ['Explanation', 'FieldComparison', 'Relation', 'explain', 'is_compatible', 'relation']
@@ -114,8 +115,8 @@ def relation(a: Resource, b: Resource) -> Relation:
 
 
 #: What an `Explanation` says of one field: its name, the text of each side (str), whether they
-#: meet (bool), and what they share (str: the text of a field, for two patterns a name that both
-#: admit, '' for nothing).
+#: meet (bool; None where another field decides and the patterns are too complex), and what they
+#: share (str: the text of a field, for two patterns a name that both admit, '' for nothing).
 FieldComparison = namedtuple('FieldComparison', 'field a b is_compatible shared')
 
 
@@ -138,11 +139,16 @@ class Explanation:
         self.fields = tuple(self._comparisons())
 
     def _comparisons(self) -> List[FieldComparison]:
-        sets_of_b = dict(self.b.sets)
-        compared = {field: FieldComparison(field, x.string, sets_of_b[field].string,
-                                           x.intersects(sets_of_b[field]),
-                                           x.shared(sets_of_b[field]))
-                    for field, x in self.a.sets}
+        compared: Dict[str, FieldComparison] = {}
+        for (field, x), (_, y) in zip(self.a.sets, self.b.sets):      # the name comes last
+            meets: Optional[bool]
+            try:
+                meets, shared = x.intersects(y), x.shared(y)
+            except PatternTooComplex:
+                if all(comparison.is_compatible for comparison in compared.values()):
+                    raise
+                meets, shared = None, ''
+            compared[field] = FieldComparison(field, x.string, y.string, meets, shared)
         shown = ['hardware_platform', 'name', 'application_framework', 'operating_system']
         if self.a.concert_name or self.b.concert_name:
             shown.insert(0, 'concert_name')
@@ -160,7 +166,8 @@ class Explanation:
         rows = [('', 'field', 'first', 'second', 'in common')]
         for field, a, b, meets, shared in self.fields:
             example = 'e.g. ' if field == 'name' and shared not in (a, b, '') else ''
-            rows.append(('' if meets else 'x', field, a, b, example + shared or 'nothing'))
+            in_common = 'too complex to say' if meets is None else example + shared or 'nothing'
+            rows.append(('x' if meets is False else '', field, a, b, in_common))
         widths = [max(map(len, column)) for column in zip(*rows)]
         lines = ['  '.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()
                  for row in rows]

@@ -13,7 +13,7 @@ from rocon_uri.exceptions import RoconURIValueError, quoted
 from rocon_uri.field import Field, NameField, UnregisteredValue, ValuesField, read_name, read_values
 from rocon_uri.grammar import is_literal
 from rocon_uri.parts import read_concert_name, read_rocon_app, take_apart
-from rocon_uri.vocabulary import Vocabulary, completed, current
+from rocon_uri.vocabulary import Vocabulary, completed, current, precedence
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -314,8 +314,8 @@ def aligned(a: Union[str, RoconURI], b: Union[str, RoconURI],
     :param b: RoconURI, or str that is parsed
     :param bool complete: does the extent of groups matter?
     :returns: (RoconURI, RoconURI)
-    :raises RoconURIValueError: for a text that is not legal, or that the newer vocabulary of the
-        two does not know
+    :raises RoconURIValueError: for a text that is not legal, or one with a value that the other's
+        vocabulary, by which both are read, does not know
     """
     first, second = parse(a), parse(b)
     vocabularies = [first._vocabulary, second._vocabulary]
@@ -323,10 +323,10 @@ def aligned(a: Union[str, RoconURI], b: Union[str, RoconURI],
         vocabularies = [completed(vocabulary) for vocabulary in vocabularies]
     elif vocabularies[0] is vocabularies[1]:
         return first, second
-    newer = max(vocabularies, key=attrgetter('serial'))
+    chosen = max(vocabularies, key=precedence)
     if any(vocabulary.is_open for vocabulary in vocabularies):
-        newer = newer.opened()
-    return parse(first, newer), parse(second, newer)
+        chosen = chosen.opened()
+    return parse(first, chosen), parse(second, chosen)
 
 
 def with_any_name(uri: RoconURI) -> RoconURI:

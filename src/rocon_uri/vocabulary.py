@@ -17,9 +17,9 @@ from rocon_uri.grammar import VOCABULARY_FIELDS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Mapping, Optional
+    from typing import Any, Dict, Mapping, Optional, Tuple
 
-__all__ = ['Vocabulary', 'complete', 'completed', 'current']
+__all__ = ['Vocabulary', 'complete', 'completed', 'current', 'precedence']
 
 _RULES_FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'rules')
 _serial_numbers = itertools.count()
@@ -183,3 +183,17 @@ def completed(vocabulary: Vocabulary) -> Vocabulary:
     :returns: Vocabulary: the complete one for the one that stood in for it, else the one given
     """
     return complete() if vocabulary is _initial else vocabulary
+
+
+def precedence(vocabulary: Vocabulary) -> Tuple[bool, int]:
+    """
+    A key that is larger for the one of two vocabularies that URIs of both are to be read with.
+
+    That is one that was given, before what stands in where none is; and then the later one.
+
+    :param Vocabulary vocabulary: any
+    :returns: (bool, int)
+    """
+    stands_in = any(default is not None and vocabulary._fields is default._fields
+                    for default in (_initial, _complete))
+    return not stands_in, vocabulary.serial
