@@ -270,14 +270,14 @@ def test_an_explanation_leaves_names_undecided_where_another_field_decides():
 
 def test_a_vocabulary_that_was_given_is_the_one_that_both_are_read_with():
     # whichever was made first; in a process of its own, where the default one is made last
-    subprocess.run([sys.executable, '-c', """
+    subprocess.run([sys.executable, '-c', '''
 from rocon_uri import Relation, Vocabulary, is_compatible, parse, relation
 ours = Vocabulary.bundled().extended({'hardware_platform': {'robot': ['ours']}})
 for _ in range(2):      # the second time, the default one has been completed
     assert is_compatible(parse('rocon:/ours', ours), 'rocon:/robot')
     assert is_compatible('rocon:/robot', parse('rocon:/ours', ours.opened()))
     assert relation(parse('rocon:/ours', ours), 'rocon:/robot') is Relation.SUBSET
-"""], check=True, env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)))
+'''], check=True, env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)))
 
 
 def test_what_the_other_fields_decide_is_not_asked_of_the_names():

@@ -1,4 +1,4 @@
-"""What the source promises about itself: Python 3.8, and a clean bill from the linter."""
+"""What the source promises: Python 3.8, types that fit, and nothing that a linter minds."""
 from __future__ import annotations
 
 import shutil
@@ -25,3 +25,7 @@ def test_runs_on_python_3_8():
 
 def test_is_clean():
     check('ruff', 'check', '--no-cache', *SOURCES)
+
+
+def test_types_fit_together():
+    check('mypy', '--no-incremental')

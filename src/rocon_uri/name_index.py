@@ -83,7 +83,9 @@ class NameIndex:
         prefix, suffix = pattern.prefix, pattern.suffix
         if pattern.literal is not None:
             return self._order(False).equal_to(prefix)
-        matches, names, numbers = matches_in_order, [], []
+        matches = matches_in_order
+        names: List[str] = []
+        numbers: List[int] = []
         if prefix or not suffix:
             names, numbers = self._order(False).starting_with(prefix)
         if suffix and (len(numbers) > 1 or not prefix):

@@ -97,7 +97,7 @@ class ResourceIndex(Resources):
 
         :param uri: RoconURI, or str that is parsed
         """
-        self.pop(uri, None)
+        self.pop(parse(uri), None)
 
     def find(self, request: Resource) -> Iterator[RoconURI]:
         """
