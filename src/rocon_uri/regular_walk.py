@@ -1,8 +1,10 @@
 """
 Which of a million names a regular language has.
 
-In alphabetical order, names that start alike are read at once as far as they do, and where that
-decides about them, they are read no further.
+Names that the language cannot tell apart, as those of a word and a number may be, are read once.
+Where most can be told apart, those that start alike in alphabetical order are read at once as far
+as they do, and where that decides about them, they are read no further. The first takes a seventh
+of the time that it takes to read each name, the second a tenth at best.
 """
 from __future__ import annotations
 
@@ -26,6 +28,7 @@ __all__ = ['Walk']
 
 _FEW = 50               # names, for which it costs more to find out what they share than it saves
 _DERIVATIVES = 1024     # remembered
+_KNOWN = 1 << 16        # names remembered, in about 10 MB
 _AFTER_NAMES = '\x7f'   # greater than any character of a name
 
 
@@ -44,6 +47,8 @@ class Walk:
     def __init__(self, language: Language) -> None:
         self.language = language
         self._derivatives: Dict[int, _Derivative] = {}
+        self._class = str.maketrans(language.char_class)
+        self._known: Dict[str, bool] = {}       # of names in which classes stand for characters
 
     def matches(self, names: List[str]) -> List[bool]:
         """
@@ -52,6 +57,16 @@ class Walk:
         :param names: list of str, legal ROS names in alphabetical order
         :returns: list of bool
         """
+        if not names:
+            return []
+        classes = '\n'.join(names).translate(self._class).split('\n')
+        new = set(classes).difference(self._known)
+        if len(self._known) + len(new) > _KNOWN:
+            return self._walked(names)
+        self._known.update(zip(new, map(self.language.matches, new)))
+        return [self._known[name] for name in classes]
+
+    def _walked(self, names: List[str]) -> List[bool]:
         matches = [False] * len(names)
         ranges = [(0, len(names), 0, self.derivative(BEGIN))]
         while ranges:
