@@ -102,7 +102,7 @@ class Unions:
 
 
 class _State(_Mapping):
-    """A derivative: from the characters met so far to the numbers of the derivatives by them."""
+    """A derivative: from the classes of characters met so far to the numbers of those by them."""
 
     __slots__ = ('accepts', 'positions')
 
@@ -151,6 +151,7 @@ class Language:
         #: the positions after which the name may end
         self.last = reduce(or_, (1 << index for index in range(size) if follow[index] & _END))
         self.char_class, self.readers = _classes(reads)
+        self._to_classes = str.maketrans(self.char_class)
         self._lock = threading.Lock()
         self._memo = self._earlier = _new_memo()
 
@@ -167,7 +168,7 @@ class Language:
             memo = self._memo
         states = memo[0]
         state = states[1]
-        for char in name:
+        for char in name.translate(self._to_classes):
             try:
                 state = states[state[char]]
             except KeyError:
@@ -264,7 +265,7 @@ def _classes(reads: List[int]) -> Tuple[Dict[str, str], Dict[str, int]]:
     Each is named by its first character: the class of every character, and the positions that
     read a class.
     """
-    readers: Dict[int, int] = {LETTERS: 0}
+    readers: Dict[int, int] = {LETTERS: 0}      # which alone may be the first of a name
     for index, chars in enumerate(reads):
         readers[chars] = readers.get(chars, 0) | 1 << index
     named: Dict[Tuple[bool, ...], str] = {}
