@@ -63,10 +63,11 @@ def is_compatible(a: Resource, b: Resource) -> bool:
         return a._vocabulary.is_open and not a.isdisjoint(b)
     if a._concert_name and b._concert_name and a._concert_name != b._concert_name:
         return False
+    if a._pattern is None:
+        return (a._name == b._name if b._pattern is None
+                else b._pattern is ANY or b._pattern.matches(a._name))
     if a._pattern is ANY or b._pattern is ANY:      # most requests leave the name open
         return True
-    if a._pattern is None:
-        return a._name == b._name if b._pattern is None else b._pattern.matches(a._name)
     return a._pattern.matches(b._name) if b._pattern is None else a._pattern.intersects(b._pattern)
 
 

@@ -49,6 +49,7 @@ class Walk:
         self._derivatives: Dict[int, _Derivative] = {}
         self._class = str.maketrans(language.char_class)
         self._known: Dict[str, bool] = {}       # of names in which classes stand for characters
+        self._room = _KNOWN                     # for more of these; none once they have no end
 
     def matches(self, names: List[str]) -> List[bool]:
         """
@@ -59,12 +60,14 @@ class Walk:
         """
         if not names:
             return []
-        classes = '\n'.join(names).translate(self._class).split('\n')
-        new = set(classes).difference(self._known)
-        if len(self._known) + len(new) > _KNOWN:
-            return self._walked(names)
-        self._known.update(zip(new, map(self.language.matches, new)))
-        return [self._known[name] for name in classes]
+        if self._room:
+            classes = '\n'.join(names).translate(self._class).split('\n')
+            new = set(classes).difference(self._known)
+            self._room = max(0, self._room - len(new))
+            if self._room:
+                self._known.update(zip(new, map(self.language.matches, new)))
+                return [self._known[name] for name in classes]
+        return self._walked(names)
 
     def _walked(self, names: List[str]) -> List[bool]:
         matches = [False] * len(names)
