@@ -350,7 +350,8 @@ def _read_common(text: str, vocabulary: Vocabulary) -> Optional[RoconURI]:
     It takes a tenth of the time of `_read`, so that a new robot is read in less than it takes
     urllib to split its URI.
     """
-    parts = text.split('/', 5)
+    fields, _, app = text.partition('#')
+    parts = fields.split('/', 5)
     parts += _LEFT_OUT[len(parts):]
     platforms, frameworks, systems = vocabulary.fields_read.values()
     try:
@@ -360,7 +361,9 @@ def _read_common(text: str, vocabulary: Vocabulary) -> Optional[RoconURI]:
         return None
     if scheme != 'rocon:' or not platform or not is_literal(name):
         return None
-    return _new('', values, name, None, '', vocabulary)
+    if app and not grammar.is_rocon_app(app):
+        return None
+    return _new('', values, name, None, app, vocabulary)
 
 
 def _read(text: str, vocabulary: Vocabulary, strict: bool = False) -> RoconURI:
