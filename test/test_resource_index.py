@@ -123,7 +123,8 @@ def test_a_copy_is_another_index(fleet):
 
 def test_names_are_found_after_every_change():
     kept = ['rocon:/pr2/%s#%s' % (name, app)
-            for name in ('bob', 'bob_', 'bob_1', 'bob_z', 'bob_zz9', 'bo', 'az', 'za', 'Z_1', 'zz_9')
+            for name in ('bob', 'bob_', 'bob_1', 'bob_z', 'bob_zz9', 'bo', 'az', 'za', 'Z_1',
+                         'zz_9')
             for app in ('one', 'two', 'three')]
     requests = ['rocon:/pr2/' + name for name in ('bob', 'bob_z', 'bob_*', '*_1', '*9', '*z*', 'z*',
                                                   'b.*[1z]', '.*[_o]', 'zz_[0-9]')]
@@ -131,7 +132,8 @@ def test_names_are_found_after_every_change():
 
     def check():
         for request in requests:
-            assert list(index.find(request)) == [uri for uri in index if is_compatible(uri, request)]
+            assert list(index.find(request)) == [
+                uri for uri in index if is_compatible(uri, request)]
     for uri in kept:
         index.add(uri)
         check()
@@ -220,7 +222,8 @@ PLATFORMS = ['*', 'pr2', 'kobuki', 'pr2|kobuki', 'kobuki|pr2', 'robot', 'phone|t
 FRAMEWORKS = ['*', 'noetic', 'ros', 'indigo|noetic']
 SYSTEMS = ['*', 'focal', 'ubuntu', 'trusty|chrome', 'linux']
 NAMES = ['*', 'bob', 'bob_1', 'bob_2', 'bob_10', 'al', 'al_2', 'bo', 'z', 'Z', 'bob_*', 'b*', '*_2',
-         '*b*', '**', 'b*_*2', 'bob_[0-9]+', '[a-z]+_?[12]*', '(al|bob).*', '[a-z]o?b?', '.*[_A-Z].*',
+         '*b*', '**', 'b*_*2', 'bob_[0-9]+', '[a-z]+_?[12]*', '(al|bob).*', '[a-z]o?b?',
+         '.*[_A-Z].*',
          'b.*_.', '.{2,4}', '(bob)_2']
 VOCABULARIES = [Vocabulary.bundled(), complete(), TestVocabularies.ours,
                 TestVocabularies.ours.opened()]
