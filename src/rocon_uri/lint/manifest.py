@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import os
 from collections import namedtuple
+from xml.parsers.expat import ExpatError
 
 from capabilities.discovery import EXPORTS
 from rocon_uri.exceptions import quoted
@@ -31,7 +32,12 @@ def check_exports(path: str) -> List[Finding]:
     """
     file = CheckedFile(path, os.path.dirname(path))
     seen = set()
-    for name, line, column in _exports(read_file(path)):
+    try:
+        exports = _exports(read_file(path))
+    except (OSError, ValueError, ExpatError) as error:      # it has changed since it was found
+        file.error('cannot be read: %s' % (getattr(error, 'strerror', None) or error))
+        return file.findings
+    for name, line, column in exports:
         exported = file.check_file(name.strip(), 'exported file', (line, column),
                                    file.package_folder)
         if exported in seen:
@@ -57,6 +63,8 @@ def _exports(content: bytes) -> List[Export]:
                 found.append(Export('', *place))
             elif tag == 'rocon_uri' and attributes.get('rules'):
                 found.append(Export(attributes['rules'].replace('${prefix}', '.'), *place))
+        elif len(path) > 3 and path[:2] == ['package', 'export'] and path[2] in _FILE_EXPORTS:
+            found[-1] = found[-1]._replace(path=found[-1].path + '<%s>' % tag)      # no such file
 
     def text(data: str) -> None:
         if path[:-1] == ['package', 'export'] and path[-1] in _FILE_EXPORTS:
