@@ -422,6 +422,15 @@ def test_a_simple_question_about_a_hard_pattern_is_answered():
     assert includes(language('[a-z]+'), hard) and not includes(hard, language('[a-z]+'))
     assert common_name(hard, language('.*c.*')) is None
     assert difference(hard, language('b.*')) == 'a' * 201
+    assert includes(language('((.*[a-z].?){64}){21}'), language('(?:(?:.*[a-z].?){64}){21}'))
+
+
+def test_the_order_of_two_patterns_does_not_decide_whether_they_can_be_compared():
+    small = language('(a|b)*a(a|b){20}')
+    large = language('(' + '|'.join('.' * count for count in range(1, 14)) + '){45}')
+    with pytest.raises(PatternTooComplex):
+        Product(small, large).common()
+    assert common_name(small, large) == common_name(large, small) == 'a' * 45
 
 
 def test_the_memo_of_a_language_is_bounded():

@@ -20,9 +20,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Callable, Dict, List, Optional, Tuple
     _Mapping = Dict[str, int]
-    _Memo = Tuple[List['_State'], Dict[int, int]]
+    _Derivatives = Dict[int, '_State']
 else:
-    _Mapping = dict
+    _Mapping = _Derivatives = dict
 
 __all__ = ['BEGIN', 'Language', 'Step', 'Unions', 'language']
 
@@ -101,8 +101,8 @@ class Unions:
         return union
 
 
-class _State(_Mapping):
-    """A derivative: from the classes of characters met so far to the numbers of those by them."""
+class _State(_Derivatives):
+    """A derivative: from the classes of characters met so far, as octets, to those by them."""
 
     __slots__ = ('accepts', 'positions')
 
@@ -111,11 +111,11 @@ class _State(_Mapping):
         self.accepts = accepts
 
 
-def _new_memo() -> _Memo:
-    """Derivatives, each with a number, and the numbers by positions."""
+def _new_memo() -> Dict[int, _State]:
+    """Derivatives by their positions."""
     nowhere = _State(0, False)
-    nowhere.update(dict.fromkeys(ALPHABET, 0))
-    return [nowhere, _State(BEGIN, False)], {0: 0, BEGIN: 1}
+    nowhere.update(dict.fromkeys(ALPHABET.encode(), nowhere))
+    return {0: nowhere, BEGIN: _State(BEGIN, False)}
 
 
 class Language:
@@ -151,9 +151,10 @@ class Language:
         #: the positions after which the name may end
         self.last = reduce(or_, (1 << index for index in range(size) if follow[index] & _END))
         self.char_class, self.readers = _classes(reads)
-        self._to_classes = str.maketrans(self.char_class)
+        self._to_classes = _octets(self.char_class)
         self._lock = threading.Lock()
-        self._memo = self._earlier = _new_memo()
+        self._memo = _new_memo()
+        self._earlier: Dict[int, _State] = {}
 
     def matches(self, name: str) -> bool:
         """
@@ -163,37 +164,38 @@ class Language:
         :returns: bool, ``False`` for what is not a legal ROS name
         """
         memo = self._memo
-        if len(memo[0]) > _STATES - _SPARE:
-            self._earlier, self._memo = memo, _new_memo()
-            memo = self._memo
-        states = memo[0]
-        state = states[1]
-        for char in name.translate(self._to_classes):
+        if len(memo) > _STATES - _SPARE:
+            memo = self._fresh_memo()
+        state = memo[BEGIN]
+        # octets, since to put a str into classes takes as long as all the rest
+        for octet in name.encode('ascii', 'replace').translate(self._to_classes):
             try:
-                state = states[state[char]]
+                state = state[octet]
             except KeyError:
-                if char not in BIT:
+                if not octet:
                     return False
-                state = self._derivative(memo, state, char)
+                state = self._derivative(memo, state, octet)
         return state.accepts
 
-    def _derivative(self, memo: _Memo, state: _State, char: str) -> _State:
-        states, numbers = self._earlier
-        known = numbers.get(state.positions)
-        number = None if known is None else states[known].get(char)
-        positions = self._read(state.positions, char) if number is None \
-            else states[number].positions
-        states, numbers = memo
+    def _fresh_memo(self) -> Dict[int, _State]:
+        for state in self._earlier.values():
+            state.clear()       # since they hold each other
+        self._earlier, self._memo = self._memo, _new_memo()
+        return self._memo
+
+    def _derivative(self, memo: Dict[int, _State], state: _State, octet: int) -> _State:
+        earlier = self._earlier.get(state.positions, {}).get(octet)
+        positions = self._read(state.positions, chr(octet)) if earlier is None \
+            else earlier.positions
         with self._lock:
-            number = numbers.get(positions, len(states))
-            if number == len(states):
+            found = memo.get(positions)
+            if found is None:
                 found = _State(positions, positions & self.last != 0)
-                if number == _STATES:
+                if len(memo) == _STATES:
                     return found
-                states.append(found)
-                numbers[positions] = number
-            state[char] = number
-        return states[number]
+                memo[positions] = found
+            state[octet] = found
+        return found
 
     def _read(self, positions: int, char: str) -> int:
         self.work += 1 + positions.bit_length() // 4
@@ -256,6 +258,14 @@ class Step:
             chars.append(step.char)
             step = step.before
         return ''.join(reversed(chars))
+
+
+def _octets(char_class: Dict[str, str]) -> bytes:
+    """For `bytes.translate`: to the class of a character, and to 0 for what no name has."""
+    table = bytearray(256)
+    for char, name in char_class.items():
+        table[ord(char)] = ord(name)
+    return bytes(table)
 
 
 def _classes(reads: List[int]) -> Tuple[Dict[str, str], Dict[str, int]]:

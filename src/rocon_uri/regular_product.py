@@ -136,7 +136,7 @@ class Product:
         for step in steps:
             for char, positions, others in self._derivatives(step):
                 if not others or positions & self.one.last and not others & self.other.last:
-                    return Step(step, char, positions & self.one.last or positions, others)
+                    return Step(step, char, positions, others)
                 if others not in met:
                     self._spend(20 + _digits(others))
                     met[others] = covered(others)
@@ -210,7 +210,9 @@ class Product:
 
 
 def _digits(positions: int) -> int:
-    return positions.bit_length() // 4 if positions & (positions - 1) else 0
+    """About how many digits `Unions` goes through; one position needs none."""
+    length, first = positions.bit_length(), (positions & -positions).bit_length()
+    return (length - first) // 4 + length // 128 if length > first else 0
 
 
 def _members(positions: int) -> Iterator[int]:
