@@ -312,7 +312,7 @@ class RegularExpression(NamePattern):
         object.__setattr__(self, '_remembered', _nothing)
 
     def matches(self, name: str) -> bool:
-        return self._language().matches(name)
+        return (self._remembered() or self._language()).matches(name)
 
     def matches_each(self, names: Iterable[str]) -> Iterable[bool]:
         return map(self._language().matches, names)

@@ -184,7 +184,7 @@ class Language:
         return self._memo
 
     def _derivative(self, memo: Dict[int, _State], state: _State, octet: int) -> _State:
-        earlier = self._earlier.get(state.positions, {}).get(octet)
+        earlier = self._earlier.get(state.positions, state).get(octet)
         positions = self._read(state.positions, chr(octet)) if earlier is None \
             else earlier.positions
         with self._lock:
