@@ -96,6 +96,13 @@ def test_matches_whole_legal_names_only(text, names, others):
     assert [name for name in names + others if found.matches(name)] == names
 
 
+@pytest.mark.parametrize('lengths, expected', [
+    ([499], True), ([500], True), ([500, 499, 500], True), ([498], False), ([499, 501], False)])
+def test_matches_where_what_may_follow_is_hundreds_of_positions_away(lengths, expected):
+    name = ''.join('x' * length + 'c' for length in lengths) + 'd'
+    assert language('(.{250}.?.{249}c)*d').matches(name) is expected
+
+
 @pytest.mark.parametrize('text, equal', [
     ('a|b'.join('()'), '[ab]'), ('(a|b|a)c', '[ab]c'), ('((a))', 'a'), ('(a*)*b', 'a*b'),
     ('((a?){3}){2,}', 'a*'), ('(a+)*', 'a*'), ('aa*', 'a+'), ('a*a', 'a+'), ('(bc|bc)', 'bc'),
