@@ -11,6 +11,7 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from rocon_uri import (PatternTooComplex, ResourceIndex, RoconURI, RoconURIValueError, Vocabulary,
                        is_compatible, parse)
+from rocon_uri import regular_walk
 from rocon_uri.vocabulary import complete
 
 FLEET = ['rocon:/pr2/bob/noetic/focal', 'rocon:/kobuki/bob_1/noetic', 'rocon:/pr2/bob_2/indigo',
@@ -124,7 +125,7 @@ def test_a_copy_is_another_index(fleet):
 def test_names_are_found_after_every_change():
     kept = ['rocon:/pr2/%s#%s' % (name, app)
             for name in ('bob', 'bob_', 'bob_1', 'bob_z', 'bob_zz9', 'bo', 'az', 'za', 'Z_1',
-                         'zz_9')
+                         'zz_9', '*', 'bob_*', '[a-z]+_1')
             for app in ('one', 'two', 'three')]
     requests = ['rocon:/pr2/' + name for name in ('bob', 'bob_z', 'bob_*', '*_1', '*9', '*z*', 'z*',
                                                   'b.*[1z]', '.*[_o]', 'zz_[0-9]')]
@@ -140,6 +141,15 @@ def test_names_are_found_after_every_change():
     for uri in sorted(kept, key=lambda text: text[::-1]):
         index.discard(uri)
         check()
+
+
+def test_many_names_that_end_alike(monkeypatch):
+    monkeypatch.setattr(regular_walk, '_KNOWN', 0)      # so that their order matters
+    index = ResourceIndex('rocon:/pr2/%s_%d_left' % (name, number)
+                          for number in range(100) for name in 'abcdefgh')
+    for pattern in ('(a|c|e)_[0-9]*_left', '[b-d].*7_left', '[a-h]_(1|3|5)[0-9]?_left'):
+        request = parse('rocon:/*/' + pattern)
+        assert list(index.find(request)) == [uri for uri in index if is_compatible(uri, request)]
 
 
 class TestUndecided:

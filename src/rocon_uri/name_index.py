@@ -1,69 +1,110 @@
 """
-The names of many resources, in order, so that a pattern need not be tried on each of them.
+The names of many resources, so that what a request says of the name need not be tried on each.
 
 What is asked for decides what is built: names in alphabetical order for a literal name or for a
 pattern that says how names start, names read backwards in order for one that says how they end.
+Resources that have a pattern themselves are few; each different one is compared.
 """
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from itertools import compress
 
+from rocon_uri.exceptions import PatternTooComplex
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Callable, Dict, Iterable, List, Mapping, Tuple
+    from typing import Dict, Iterable, List, Mapping, Optional, Set, Tuple
     from rocon_uri.name_pattern import NamePattern
     from rocon_uri.uri import RoconURI
-    Matcher = Callable[[List[str]], Iterable[bool]]
 
-__all__ = ['NameIndex']
+__all__ = ['NameIndex', 'NameRequest']
 
 _AFTER_NAMES = '\x7f'       # greater than any character of a name
 _CHANGES_LIMIT = 100        # more of them since the last question, and the order is built anew
 
 
+class NameRequest:
+    """
+    What a request says of the name, and what has come of it so far.
+
+    :param NamePattern pattern: what it says
+
+    ``pattern`` is an attribute too, and ``matches_in_order`` what its method returned.
+    """
+
+    def __init__(self, pattern: NamePattern) -> None:
+        self.pattern = pattern
+        self.matches_in_order = pattern.matches_in_order()
+        self._verdicts: Dict[NamePattern, Optional[bool]] = {}
+
+    def meets(self, pattern: NamePattern) -> Optional[bool]:
+        """
+        Is there a name that the request and another pattern both admit?
+
+        :param NamePattern pattern: of a resource
+        :returns: bool, or None if that takes too much work to decide
+        """
+        if pattern not in self._verdicts:
+            try:
+                self._verdicts[pattern] = self.pattern.intersects(pattern)
+            except PatternTooComplex:
+                self._verdicts[pattern] = None
+        return self._verdicts[pattern]
+
+
 class NameIndex:
     """
-    The resources of a mapping that have a literal name, found by it.
+    The resources of a mapping, found by their name.
 
     The one who changes the mapping says so, with `add` and `discard`.
 
     :param resources: mapping from numbers to `RoconURI`
 
     >>> from rocon_uri import name_pattern, parse
-    >>> names = NameIndex({1: parse('rocon:/pr2/bob_2'), 2: parse('rocon:/pr2/bob_1'),
-    ...                    3: parse('rocon:/pr2/al_1')})
-    >>> bob = name_pattern.read('bob_*')
-    >>> names.numbers(bob, bob.matches_in_order())
-    [2, 1]
+    >>> names = NameIndex({1: parse('rocon:/pr2/bob_2'), 2: parse('rocon:/pr2/alice')})
+    >>> names.numbers(NameRequest(name_pattern.read('bob_*')))
+    ([1], [])
     """
 
-    __slots__ = ('_resources', '_orders', '_changes')
+    __slots__ = ('_resources', '_patterned', '_orders', '_changes')
 
     def __init__(self, resources: Mapping[int, RoconURI]) -> None:
         self._resources = resources
+        self._patterned: Dict[NamePattern, Set[int]] = {}
         self._orders: Dict[bool, _Order] = {}       # by whether names are read backwards
         self._changes = 0
+        for number, uri in resources.items():
+            self.add(number, uri)
 
-    def add(self, name: str, number: int) -> None:
+    def add(self, number: int, uri: RoconURI) -> None:
         """
         Note that the mapping has one resource more.
 
-        :param str name: its name, a literal
         :param int number: its number, larger than those that there were
+        :param RoconURI uri: the resource
         """
-        for backwards, order in self._changing():
-            order.add(name[::-1] if backwards else name, number)
+        if uri._pattern is None:
+            for backwards, order in self._changing():
+                order.add(uri._name[::-1] if backwards else uri._name, number)
+        else:
+            self._patterned.setdefault(uri._pattern, set()).add(number)
 
-    def discard(self, name: str, number: int) -> None:
+    def discard(self, number: int, uri: RoconURI) -> None:
         """
         Note that the mapping has one resource less.
 
-        :param str name: its name, a literal
         :param int number: its number
+        :param RoconURI uri: the resource
         """
-        for backwards, order in self._changing():
-            order.discard(name[::-1] if backwards else name, number)
+        if uri._pattern is None:
+            for backwards, order in self._changing():
+                order.discard(uri._name[::-1] if backwards else uri._name, number)
+        else:
+            numbers = self._patterned[uri._pattern]
+            numbers.remove(number)
+            if not numbers:
+                del self._patterned[uri._pattern]
 
     def _changing(self) -> Iterable[Tuple[bool, _Order]]:
         """What is to be kept up to date; where a lot changes, sorting again is cheaper."""
@@ -72,18 +113,29 @@ class NameIndex:
             self._orders.clear()
         return self._orders.items()
 
-    def numbers(self, pattern: NamePattern, matches_in_order: Matcher) -> List[int]:
+    def numbers(self, request: NameRequest) -> Tuple[List[int], List[int]]:
         """
-        The resources whose name a pattern admits.
+        The resources whose name a request admits.
 
-        :param NamePattern pattern: any but ``*``
-        :param matches_in_order: what its method of that name returned
-        :returns: list of int, their numbers, in no order to rely on
+        :param NameRequest request: of any pattern but ``*``
+        :returns: (list of int, list of int), their numbers and those of the ones that it takes
+            too much work to decide about, in no order to rely on
         """
-        prefix, suffix = pattern.prefix, pattern.suffix
+        found = self._literal(request)
+        undecided: List[int] = []
+        for pattern, numbers in self._patterned.items():
+            verdict = request.meets(pattern)
+            if verdict:
+                found += numbers
+            elif verdict is None:
+                undecided += numbers
+        return found, undecided
+
+    def _literal(self, request: NameRequest) -> List[int]:
+        pattern, prefix, suffix = request.pattern, request.pattern.prefix, request.pattern.suffix
         if pattern.literal is not None:
             return self._order(False).equal_to(prefix)
-        matches = matches_in_order
+        matches = request.matches_in_order
         names: List[str] = []
         numbers: List[int] = []
         if prefix or not suffix:

@@ -13,22 +13,19 @@ from collections.abc import Mapping, MutableMapping
 from rocon_uri.compatibility import is_compatible
 from rocon_uri.exceptions import PatternTooComplex, quoted
 from rocon_uri.field import UnregisteredValue
-from rocon_uri.name_index import NameIndex
+from rocon_uri.name_index import NameIndex, NameRequest
 from rocon_uri.uri import RoconURI, aligned, parse, with_any_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import (Any, Collection, Dict, Iterable, Iterator, Optional, Set, Tuple, Type,
-                        Union)
+    from typing import Any, Collection, Dict, Iterable, Iterator, Tuple, Type, Union
     from rocon_uri.field import ValuesField
-    from rocon_uri.name_pattern import NamePattern
     from rocon_uri.vocabulary import Vocabulary
     Resource = Union[str, RoconURI]
     KindKey = Tuple[ValuesField, ValuesField, ValuesField, str, Vocabulary]
     Resources = MutableMapping[RoconURI, Any]
-    Verdicts = Dict[NamePattern, Optional[bool]]
 else:
-    Resources, Verdicts = MutableMapping, dict
+    Resources = MutableMapping
 
 __all__ = ['ResourceIndex']
 
@@ -85,7 +82,8 @@ class ResourceIndex(Resources):
             kind = self._kinds.get(key)
             if kind is None:
                 kind = self._kinds[key] = _Kind(uri)
-            kind.add(number, uri)
+            kind.resources[number] = uri
+            kind.names.add(number, uri)
         if payload is None:
             self._payloads.pop(number, None)
         else:
@@ -110,8 +108,8 @@ class ResourceIndex(Resources):
         :raises PatternTooComplex: after all others, if there are resources with a pattern that
             takes too much work to compare; these are its ``undecided``, a list of RoconURI
 
-        >>> ResourceIndex(['rocon:/pr2/bob', 'rocon:/pr2|pc/b*']).count('rocon:/pc')
-        1
+        >>> list(ResourceIndex(['rocon:/pr2/bob', 'rocon:/pr2|pc/b*']).find('rocon:/pc'))
+        [RoconURI('rocon:/pr2|pc/b*/*/*')]
         """
         request = parse(request)
         found: Dict[int, RoconURI] = {}
@@ -131,6 +129,9 @@ class ResourceIndex(Resources):
         :returns: int
         :raises PatternTooComplex: if that takes too much work to decide for some of them; these
             are its ``undecided``, a list of RoconURI
+
+        >>> ResourceIndex(['rocon:/pr2/bob', 'rocon:/pr2|pc/b*']).count('rocon:/*/bob')
+        2
         """
         request = parse(request)
         undecided: Dict[int, RoconURI] = {}
@@ -146,6 +147,9 @@ class ResourceIndex(Resources):
         :returns: bool
         :raises PatternTooComplex: if none is known to match, and for some of them that takes too
             much work to decide; these are its ``undecided``, a list of RoconURI
+
+        >>> ResourceIndex(['rocon:/pr2/bob', 'rocon:/pr2|pc/b*']).any('rocon:/*/alice')
+        False
         """
         request = parse(request)
         undecided: Dict[int, RoconURI] = {}
@@ -159,7 +163,7 @@ class ResourceIndex(Resources):
                  ) -> Iterator[Tuple[Dict[int, RoconURI], Collection[int]]]:
         """For each kind that meets the request, its resources, and which of them match."""
         asked = with_any_name(request)
-        verdicts = _Verdicts(request.name.pattern)
+        name = NameRequest(request.name.pattern)
         for kind in self._kinds.values():
             resources = kind.resources
             uri, requested = kind.uri, asked
@@ -170,8 +174,14 @@ class ResourceIndex(Resources):
                     yield resources, [number for number, resource in resources.items()
                                       if is_compatible(resource, request)]
                     continue
-            if is_compatible(uri, requested):
-                yield resources, kind.named(verdicts, undecided)
+            if not is_compatible(uri, requested):
+                continue
+            if name.pattern.is_any:
+                yield resources, resources
+            else:
+                numbers, unknown = kind.names.numbers(name)
+                undecided.update((number, resources[number]) for number in unknown)
+                yield resources, numbers
 
     def __getitem__(self, uri: Resource) -> Any:
         return self._payloads.get(self._numbers[parse(uri)])
@@ -186,7 +196,7 @@ class ResourceIndex(Resources):
         kind = self._kinds.get(_kind_key(uri))
         if kind is None or number not in kind.resources:    # an equal one, of another vocabulary
             kind = next(kind for kind in self._kinds.values() if number in kind.resources)
-        kind.remove(number)
+        kind.names.discard(number, kind.resources.pop(number))
         if not kind.resources:
             del self._kinds[_kind_key(kind.uri)]
 
@@ -226,65 +236,12 @@ class _Kind:
     :param RoconURI uri: one of them
     """
 
-    __slots__ = ('uri', 'resources', '_names', '_patterned')
+    __slots__ = ('uri', 'resources', 'names')
 
     def __init__(self, uri: RoconURI) -> None:
         self.uri = with_any_name(uri)       # all that are of this kind
         self.resources: Dict[int, RoconURI] = {}
-        self._names = NameIndex(self.resources)
-        self._patterned: Dict[NamePattern, Set[int]] = {}
-
-    def add(self, number: int, uri: RoconURI) -> None:
-        self.resources[number] = uri
-        if uri._pattern is None:
-            self._names.add(uri._name, number)
-        else:
-            self._patterned.setdefault(uri._pattern, set()).add(number)
-
-    def remove(self, number: int) -> None:
-        uri = self.resources.pop(number)
-        if uri._pattern is None:
-            self._names.discard(uri._name, number)
-        else:
-            numbers = self._patterned[uri._pattern]
-            numbers.remove(number)
-            if not numbers:
-                del self._patterned[uri._pattern]
-
-    def named(self, verdicts: _Verdicts, undecided: Dict[int, RoconURI]) -> Collection[int]:
-        """The numbers of the resources whose name the request admits, or may admit."""
-        if verdicts.name.is_any:
-            return self.resources
-        found = self._names.numbers(verdicts.name, verdicts.matches_in_order)
-        for pattern, numbers in self._patterned.items():
-            verdict = verdicts[pattern]
-            if verdict:
-                found += numbers
-            elif verdict is None:
-                undecided.update((number, self.resources[number]) for number in numbers)
-        return found
-
-
-class _Verdicts(Verdicts):
-    """
-    Does a pattern meet the name of the request? None where that takes too much work to decide.
-
-    :param NamePattern name: what the request says
-
-    ``name`` is an attribute too, and ``matches_in_order`` what its method returned.
-    """
-
-    def __init__(self, name: NamePattern) -> None:
-        self.name = name
-        self.matches_in_order = name.matches_in_order()
-
-    def __missing__(self, pattern: NamePattern) -> Optional[bool]:
-        try:
-            verdict: Optional[bool] = self.name.intersects(pattern)
-        except PatternTooComplex:
-            verdict = None
-        self[pattern] = verdict
-        return verdict
+        self.names = NameIndex(self.resources)
 
 
 def _in_order(request: RoconURI, found: Dict[int, RoconURI],
