@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ['WORK_LIMIT', 'Product', 'common_name', 'difference', 'includes']
 
-WORK_LIMIT = 800000     # of one walk; a unit takes about 0.1 microseconds and 20 bytes at most
+WORK_LIMIT = 600000     # of one walk; a unit takes about 0.1 microseconds and 20 bytes at most
 _COMPARED = 16          # how many of the sets come to first a new one is compared with
 _PAIRS = 1 << 18        # of positions, of which it is found out whether one covers the other
 
