@@ -9,6 +9,7 @@ have is compared once.
 from __future__ import annotations
 
 from collections.abc import Mapping, MutableMapping
+from itertools import chain
 
 from rocon_uri.compatibility import is_compatible
 from rocon_uri.exceptions import PatternTooComplex, quoted
@@ -18,7 +19,8 @@ from rocon_uri.uri import RoconURI, aligned, parse, with_any_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Collection, Dict, Iterable, Iterator, Tuple, Type, Union
+    from typing import (Any, Collection, Dict, Iterable, Iterator, List, Optional, Tuple, Type,
+                        Union)
     from rocon_uri.field import ValuesField
     from rocon_uri.vocabulary import Vocabulary
     Resource = Union[str, RoconURI]
@@ -63,6 +65,7 @@ class ResourceIndex(Resources):
     def clear(self) -> None:
         """Remove every resource."""
         self._numbers: Dict[RoconURI, int] = {}     # larger for one that was added later
+        self._resources: Dict[int, RoconURI] = {}
         self._payloads: Dict[int, Any] = {}         # only those that are not None
         self._kinds: Dict[KindKey, _Kind] = {}
         self._next_number = 0
@@ -82,7 +85,7 @@ class ResourceIndex(Resources):
             kind = self._kinds.get(key)
             if kind is None:
                 kind = self._kinds[key] = _Kind(uri)
-            kind.resources[number] = uri
+            kind.resources[number] = self._resources[number] = uri
             kind.names.add(number, uri)
         if payload is None:
             self._payloads.pop(number, None)
@@ -112,14 +115,10 @@ class ResourceIndex(Resources):
         [RoconURI('rocon:/pr2|pc/b*/*/*')]
         """
         request = parse(request)
-        found: Dict[int, RoconURI] = {}
-        undecided: Dict[int, RoconURI] = {}
-        for resources, numbers in self._matches(request, undecided):
-            if numbers is resources:
-                found.update(resources)
-            else:
-                found.update(zip(numbers, map(resources.__getitem__, numbers)))
-        return _in_order(request, found, undecided)
+        undecided: List[int] = []
+        numbers = sorted(chain.from_iterable(self._matches(request, undecided)))
+        return _with_error_last(list(map(self._resources.__getitem__, numbers)),
+                                self._error(request, undecided))
 
     def count(self, request: Resource) -> int:
         """
@@ -134,9 +133,11 @@ class ResourceIndex(Resources):
         2
         """
         request = parse(request)
-        undecided: Dict[int, RoconURI] = {}
-        count = sum(len(numbers) for _, numbers in self._matches(request, undecided))
-        _check_decided(request, undecided)
+        undecided: List[int] = []
+        count = sum(map(len, self._matches(request, undecided)))
+        error = self._error(request, undecided)
+        if error:
+            raise error
         return count
 
     def any(self, request: Resource) -> bool:
@@ -152,36 +153,45 @@ class ResourceIndex(Resources):
         False
         """
         request = parse(request)
-        undecided: Dict[int, RoconURI] = {}
-        for _, numbers in self._matches(request, undecided):
-            if numbers:
-                return True
-        _check_decided(request, undecided)
+        undecided: List[int] = []
+        if any(self._matches(request, undecided)):
+            return True
+        error = self._error(request, undecided)
+        if error:
+            raise error
         return False
 
-    def _matches(self, request: RoconURI, undecided: Dict[int, RoconURI]
-                 ) -> Iterator[Tuple[Dict[int, RoconURI], Collection[int]]]:
-        """For each kind that meets the request, its resources, and which of them match."""
+    def _matches(self, request: RoconURI, undecided: List[int]) -> Iterator[Collection[int]]:
+        """The numbers of the resources that match, kind by kind, while the others are noted."""
         asked = with_any_name(request)
         name = NameRequest(request.name.pattern)
         for kind in self._kinds.values():
-            resources = kind.resources
             uri, requested = kind.uri, asked
             if uri._vocabulary is not asked._vocabulary:
                 try:
                     uri, requested = aligned(uri, asked)
                 except UnregisteredValue:       # which a comparison with anything at all survives
-                    yield resources, [number for number, resource in resources.items()
-                                      if is_compatible(resource, request)]
+                    yield [number for number, resource in kind.resources.items()
+                           if is_compatible(resource, request)]
                     continue
             if not is_compatible(uri, requested):
                 continue
             if name.pattern.is_any:
-                yield resources, resources
+                yield kind.resources
             else:
                 numbers, unknown = kind.names.numbers(name)
-                undecided.update((number, resources[number]) for number in unknown)
-                yield resources, numbers
+                undecided += unknown
+                yield numbers
+
+    def _error(self, request: RoconURI, undecided: List[int]) -> Optional[PatternTooComplex]:
+        if not undecided:
+            return None
+        name = request.name.string
+        error = PatternTooComplex(
+            'name %s takes too much work to compare with the patterns of %d resources'
+            % (quoted(name), len(undecided)), str(request), 'name', name)
+        error.undecided = [self._resources[number] for number in sorted(undecided)]
+        return error
 
     def __getitem__(self, uri: Resource) -> Any:
         return self._payloads.get(self._numbers[parse(uri)])
@@ -193,6 +203,7 @@ class ResourceIndex(Resources):
         uri = parse(uri)
         number = self._numbers.pop(uri)
         self._payloads.pop(number, None)
+        del self._resources[number]
         kind = self._kinds.get(_kind_key(uri))
         if kind is None or number not in kind.resources:    # an equal one, of another vocabulary
             kind = next(kind for kind in self._kinds.values() if number in kind.resources)
@@ -244,18 +255,8 @@ class _Kind:
         self.names = NameIndex(self.resources)
 
 
-def _in_order(request: RoconURI, found: Dict[int, RoconURI],
-              undecided: Dict[int, RoconURI]) -> Iterator[RoconURI]:
-    for number in sorted(found):
-        yield found[number]
-    _check_decided(request, undecided)
-
-
-def _check_decided(request: RoconURI, undecided: Dict[int, RoconURI]) -> None:
-    if undecided:
-        name = request.name.string
-        error = PatternTooComplex(
-            'name %s takes too much work to compare with the patterns of %d resources'
-            % (quoted(name), len(undecided)), str(request), 'name', name)
-        error.undecided = [undecided[number] for number in sorted(undecided)]
+def _with_error_last(found: List[RoconURI],
+                     error: Optional[PatternTooComplex]) -> Iterator[RoconURI]:
+    yield from found
+    if error:
         raise error
