@@ -17,9 +17,9 @@ from rocon_uri.vocabulary import Vocabulary
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Iterator, List, Tuple
+    from typing import Any, Dict, Iterable, Iterator, List, Tuple
 
-__all__ = ['read_rules', 'with_exported_rules']
+__all__ = ['read_rules', 'rules_path', 'with_exported_rules', 'with_rules']
 
 _END_OF_SEARCH = frozenset(('package.xml', 'manifest.xml', 'rospack_nosubdirs'))
 
@@ -42,6 +42,38 @@ def read_rules(vocabulary: Vocabulary, path: str) -> Vocabulary:
     except RulesError as error:
         line, column = _position(rules, error.path)
         raise YamlError(error.problem, path, line, column) from None
+
+
+def with_rules(vocabulary: Vocabulary,
+               paths: Iterable[str]) -> Tuple[Vocabulary, List[Exception]]:
+    """
+    A vocabulary with what files of rules add; one with a fault adds nothing.
+
+    :param Vocabulary vocabulary: what there is already
+    :param paths: iterable of str
+    :returns: (Vocabulary, list of `YamlError` and `OSError`)
+    """
+    errors: List[Exception] = []
+    for path in paths:
+        try:
+            vocabulary = read_rules(vocabulary, path)
+        except (OSError, ValueError) as error:
+            errors.append(error)
+    return vocabulary, errors
+
+
+def rules_path(folder: str, rules: str) -> str:
+    """
+    The file that a package means by the ``rules`` of its export.
+
+    :param str folder: the package's
+    :param str rules: as it is written there
+    :returns: str
+
+    >>> rules_path('/opt/our_package', '${prefix}/rules/our_robots.yaml')
+    '/opt/our_package/rules/our_robots.yaml'
+    """
+    return os.path.join(folder, rules.replace('${prefix}', folder))
 
 
 def _refuse_repeated_keys(rules: Any, path: str) -> None:
@@ -74,11 +106,9 @@ def with_exported_rules(vocabulary: Vocabulary) -> Vocabulary:
     :param Vocabulary vocabulary: what there is already
     :returns: Vocabulary
     """
-    for path in _paths():
-        try:
-            vocabulary = read_rules(vocabulary, path)
-        except (OSError, ValueError) as error:
-            _warn('rules left out: %s', error)
+    vocabulary, errors = with_rules(vocabulary, _paths())
+    for error in errors:
+        _warn('rules left out: %s', error)
     return vocabulary
 
 
@@ -108,7 +138,7 @@ def _exported_paths() -> Dict[str, List[str]]:
             continue
         rules = (export.get('rules') for export in package.iterfind('export/rocon_uri'))
         exported.setdefault((package.findtext('name') or folder).strip(), [
-            os.path.join(folder, path.replace('${prefix}', folder)) for path in rules if path])
+            rules_path(folder, path) for path in rules if path])
     return exported
 
 

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import os
 
-from rocon_uri.exported_rules import read_rules
+from rocon_uri.exported_rules import rules_path, with_rules
 from rocon_uri.vocabulary import Vocabulary, complete, current
-from rocon_uri.yaml_source import YamlError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -33,8 +32,7 @@ def rules_file_index_from_package_index(package_index: Mapping[str, Any]) -> Dic
         for export in package.exports:
             rules = export.attributes.get('rules') if export.tagname == 'rocon_uri' else None
             if rules:
-                path = os.path.join(folder, rules.replace('${prefix}', folder))
-                index.setdefault(name, []).append(os.path.normpath(path))
+                index.setdefault(name, []).append(os.path.normpath(rules_path(folder, rules)))
     return index
 
 
@@ -52,11 +50,4 @@ def vocabulary_from_package_index(
     """
     paths = [path for below in rules_file_index_from_package_index(package_index).values()
              for path in below]
-    vocabulary = complete() if paths else current()
-    errors: List[Exception] = []
-    for path in paths:
-        try:
-            vocabulary = read_rules(vocabulary, path)
-        except (YamlError, OSError) as error:
-            errors.append(error)
-    return vocabulary, errors
+    return with_rules(complete() if paths else current(), paths)
