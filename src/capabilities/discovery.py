@@ -32,7 +32,7 @@ from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import capability_interface_from_file_path
 from capabilities.specs.provider import capability_provider_from_file_path
 from capabilities.specs.semantic_interface import semantic_capability_interface_from_file_path
-from rocon_uri.yaml_source import MAX_SIZE, located, quoted, read_file
+from rocon_uri.yaml_source import MAX_SIZE, located, quoted, quoted_path, read_file
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def package_index_from_package_path(package_paths: Union[str, Iterable[str]],
                 package = _package(os.path.join(folder, PACKAGE_MANIFEST_FILENAME))
                 if package.name in found:
                     raise PackageError('package %s is there already, in %s' % (
-                        quoted(package.name), quoted(found[package.name].filename)),
+                        quoted(package.name), quoted_path(found[package.name].filename)),
                         package.filename)
                 found[package.name] = package
             except PackageError as error:

@@ -11,7 +11,8 @@ It is usually made by `capabilities.discovery.spec_index_from_spec_file_index`.
 from __future__ import annotations
 
 from capabilities.specs.common import InvalidSpec
-from rocon_uri.yaml_source import YamlMapping, did_you_mean, located, near_misses, quoted
+from rocon_uri.yaml_source import (
+    YamlMapping, did_you_mean, located, near_misses, quoted, quoted_path)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -283,7 +284,7 @@ class SpecIndex:
             if name in entries:
                 raise DuplicateNameException(
                     '%s is the name of %s already, in %s' % (
-                        quoted(name), kind, quoted(entries[name][1])),
+                        quoted(name), kind, quoted_path(entries[name][1])),
                     name, package_name, spec.spec_type, str(file_path), *_position(spec, 'name'))
         return name
 

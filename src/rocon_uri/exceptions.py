@@ -10,7 +10,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Callable, Iterable, List, Optional, Tuple
 
-__all__ = ['PatternTooComplex', 'RoconURIValueError', 'did_you_mean', 'near_misses', 'quoted']
+__all__ = ['PatternTooComplex', 'RoconURIValueError', 'did_you_mean', 'near_misses', 'quoted',
+           'quoted_path']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _NEAR_LENGTH = 64       # a longer text is nobody's typing error; bounds the cost of the search
@@ -28,7 +29,20 @@ def quoted(text: str) -> str:
     """
     if len(text) > _QUOTED_LENGTH:
         text = text[:_QUOTED_LENGTH - 3] + '...'
-    return "'%s'" % ''.join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+    return quoted_path(text)
+
+
+def quoted_path(path: str) -> str:
+    """
+    The path of a file as an error shows it: in single quotes, on one line, and whole.
+
+    :param str path: anything; as long as the system lets a path be
+    :returns: str, printable
+
+    >>> print(quoted_path('/home' + '/bob' * 20)[-9:])
+    /bob/bob'
+    """
+    return "'%s'" % ''.join(c if c.isprintable() else repr(c)[1:-1] for c in path)
 
 
 def near_misses(text: str, candidates: Iterable[str]) -> List[str]:

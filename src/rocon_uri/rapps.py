@@ -20,7 +20,7 @@ import os
 from rocon_uri.rapp import InvalidRapp, Rapp, RequiredCapability, rapp_from_file_path
 from rocon_uri.rapp import rapp_from_string
 from rocon_uri.runnable import Reason, ReasonKind, Verdict, runnable
-from rocon_uri.yaml_source import did_you_mean, near_misses, quoted
+from rocon_uri.yaml_source import did_you_mean, near_misses, quoted, quoted_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def rapps_from_rapp_file_index(
                 rapp = _rapp_of_package(package, path)
                 if rapp.name in rapps:
                     raise InvalidRapp('rapp %s is there already, in %s' % (
-                        quoted(rapp.name), quoted(rapps[rapp.name].path)), path)
+                        quoted(rapp.name), quoted_path(rapps[rapp.name].path)), path)
                 rapps[rapp.name] = rapp
             except InvalidRapp as error:
                 errors.append(error)

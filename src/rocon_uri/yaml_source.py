@@ -40,7 +40,7 @@ from __future__ import annotations
 
 import re
 
-from rocon_uri.exceptions import did_you_mean, near_misses, quoted
+from rocon_uri.exceptions import did_you_mean, near_misses, quoted, quoted_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     Position = Tuple[int, int]
 
 __all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'did_you_mean',
-           'load', 'load_file', 'located', 'near_misses', 'quoted', 'read_file']
+           'load', 'load_file', 'located', 'near_misses', 'quoted', 'quoted_path', 'read_file']
 
 MAX_SIZE = 2 ** 20      # bytes of a file, characters of a text, and what aliases may add
 MAX_DEPTH = 100         # collections in one another

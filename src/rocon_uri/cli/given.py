@@ -6,7 +6,7 @@ import sys
 
 from rocon_uri.cli.lines import read_lines
 from rocon_uri.cli.progress import beside_progress
-from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.exceptions import RoconURIValueError, quoted, quoted_path
 from rocon_uri.uri import parse
 
 TYPE_CHECKING = False
@@ -150,7 +150,7 @@ class Report:
 
     def _unreadable(self, file: str, error: OSError) -> None:
         self.status = 2
-        message = 'cannot read %s: %s' % (quoted(file), error.strerror or error)
+        message = 'cannot read %s: %s' % (quoted_path(file), error.strerror or error)
         say('rocon_uri: ' + message)
         if self._json:
             self.errors.append({

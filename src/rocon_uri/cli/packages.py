@@ -5,7 +5,7 @@ import os
 import sys
 
 from rocon_uri.cli.given import Report, say
-from rocon_uri.exceptions import quoted
+from rocon_uri.exceptions import quoted_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def package_path(args: argparse.Namespace, report: PackageReport,
     if args.package_path is not None:
         for folder in folders:
             if not os.path.isdir(folder):
-                report.bad('%s is no folder' % quoted(folder))
+                report.bad('%s is no folder' % quoted_path(folder))
     return folders
 
 

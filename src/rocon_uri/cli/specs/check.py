@@ -26,7 +26,7 @@ from rocon_uri.cli.display import print_json
 from rocon_uri.cli.given import say
 from rocon_uri.cli.packages import (
     PackageReport, add_package_path, escape_unencodable, package_path, quiet_loggers)
-from rocon_uri.exceptions import quoted
+from rocon_uri.exceptions import quoted_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def _given_packages(paths: List[str], report: PackageReport) -> Tuple[Dict[str, 
         new_faults: List[Any] = []
         found = package_index_from_package_path([path], new_faults)
         if not found and not new_faults:
-            report.bad('%s %s' % (quoted(path), 'has no package in it' if os.path.isdir(path)
+            report.bad('%s %s' % (quoted_path(path), 'has no package in it' if os.path.isdir(path)
                                   else 'is no folder'))
         packages.update((name, package) for name, package in found.items()
                         if name not in packages)
@@ -104,7 +104,7 @@ def _write(text: str, path: str, report: PackageReport) -> None:
         with open(path, 'w', encoding='utf-8') as file:
             file.write(text + '\n')
     except OSError as error:
-        report.bad('cannot write %s: %s' % (quoted(path), error.strerror))
+        report.bad('cannot write %s: %s' % (quoted_path(path), error.strerror))
 
 
 def _counted(number: int, what: str) -> str:

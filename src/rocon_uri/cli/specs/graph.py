@@ -24,7 +24,7 @@ import subprocess
 from rocon_uri.cli.display import print_json
 from rocon_uri.cli.packages import (
     PackageReport, Packages, add_package_path, escape_unencodable, package_path)
-from rocon_uri.exceptions import quoted
+from rocon_uri.exceptions import quoted_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -73,9 +73,9 @@ def _write(text: str, path: str, report: PackageReport) -> None:
             with open(path, 'wb') as file:
                 file.write(content)
         except OSError as error:
-            report.bad('cannot write %s: %s' % (quoted(path), error.strerror))
+            report.bad('cannot write %s: %s' % (quoted_path(path), error.strerror))
     else:
-        report.bad('%s ends in none of .dot, .svg and .png' % quoted(path))
+        report.bad('%s ends in none of .dot, .svg and .png' % quoted_path(path))
 
 
 def _draw(content: bytes, picture_format: str, path: str, report: PackageReport) -> None:
@@ -88,4 +88,4 @@ def _draw(content: bytes, picture_format: str, path: str, report: PackageReport)
         return
     if done.returncode:
         problem = ' '.join(done.stderr.decode('utf-8', 'replace').split())
-        report.bad('cannot draw %s: %s' % (quoted(path), problem or 'dot has failed'))
+        report.bad('cannot draw %s: %s' % (quoted_path(path), problem or 'dot has failed'))
