@@ -7,13 +7,12 @@ import pty
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from sources import ROOT, SOURCE
 
 from rocon_uri.cli import VERBS, main
 
-ROOT = Path(__file__).resolve().parents[1]
 COMMAND = [sys.executable, str(ROOT / 'scripts' / 'rocon_uri')]
 FLEET = str(ROOT / 'examples' / 'fleet.txt')
 APPS = str(ROOT / 'examples' / 'apps.txt')
@@ -24,7 +23,7 @@ def environment(**changes):
     """That of the tests, without what a person may have set for the command."""
     left_out = {'NO_COLOR', 'TERM', 'PYTHONUNBUFFERED', 'ROCON_URI_RULES', 'COLUMNS'}
     kept = {name: value for name, value in os.environ.items() if name not in left_out}
-    return {**kept, 'PYTHONPATH': str(ROOT / 'src'), **changes}
+    return {**kept, 'PYTHONPATH': str(SOURCE), **changes}
 
 
 def run(*arguments, stdin='', **changes):
@@ -335,13 +334,13 @@ def test_shell_completion():
 
 def test_shell_completion_finds_the_mark():
     """Argcomplete looks at the first 1024 bytes, of a module too where pip made the script."""
-    assert b'PYTHON_ARGCOMPLETE_OK' in (ROOT / 'src/rocon_uri/cli/__init__.py').read_bytes()[:1024]
+    assert b'PYTHON_ARGCOMPLETE_OK' in (SOURCE / 'rocon_uri/cli/__init__.py').read_bytes()[:1024]
 
 
 def test_without_argcomplete_a_shell_that_asks_gets_no_traceback(tmp_path):
     (tmp_path / 'argcomplete.py').write_text('raise ImportError\n')
     done = run('parse', 'rocon:/pr2', _ARGCOMPLETE='1',
-               PYTHONPATH='%s:%s' % (tmp_path, ROOT / 'src'))
+               PYTHONPATH='%s:%s' % (tmp_path, SOURCE))
     assert done.returncode == 0 and done.stdout.startswith('rocon:/pr2\n')
 
 

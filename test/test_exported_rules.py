@@ -5,15 +5,13 @@ import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from sources import SOURCE
 
 from rocon_uri import Vocabulary, is_compatible, parse
 from rocon_uri.exported_rules import read_rules, with_exported_rules
 from rocon_uri.yaml_source import YamlError
-
-SOURCE = Path(__file__).resolve().parents[1] / 'src'
 
 PACKAGE = '''\
 <package format="2">

@@ -17,6 +17,7 @@ from capabilities.discovery import (
     spec_index_from_spec_file_index)
 from capabilities.specs.interface import InvalidInterface, capability_interface_from_file_path
 from made_packages import make_package
+from sources import ROOT, SOURCE
 
 from rocon_uri import RoconURI, RoconURIValueError, is_compatible, parse
 from rocon_uri.lint import check_packages
@@ -25,7 +26,6 @@ from rocon_uri.package_rules import vocabulary_from_package_index
 from rocon_uri.rapps import InvalidRapp, rapps_from_package_index, runnable
 from rocon_uri.yaml_source import YamlError
 
-ROOT = Path(__file__).resolve().parents[1]
 
 INTERFACE = 'name: %s\nspec_version: 1\nspec_type: interface\n'
 PROVIDER = ('name: camera\nspec_version: 1\nspec_type: provider\nimplements: good/Camera\n'
@@ -42,7 +42,7 @@ def rocon_uri(*arguments, prefix=(), ROS_PACKAGE_PATH=''):
     """Run the command."""
     return subprocess.run(
         [*prefix, sys.executable, str(ROOT / 'scripts/rocon_uri'), *map(str, arguments)],
-        env=dict(os.environ, PYTHONPATH=str(ROOT / 'src'), ROS_PACKAGE_PATH=ROS_PACKAGE_PATH),
+        env=dict(os.environ, PYTHONPATH=str(SOURCE), ROS_PACKAGE_PATH=ROS_PACKAGE_PATH),
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding='utf-8', timeout=60)
 
 

@@ -4,11 +4,9 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-
-SOURCE = Path(__file__).resolve().parents[1] / 'src'
+from sources import SOURCE
 
 ROS = {'rospy', 'roslib', 'rosgraph', 'rospkg', 'catkin_pkg', 'genpy', 'rosdep2', 'distro'}
 SLOW = {'json', 'logging', 'difflib', 'typing', 'platform', 'subprocess', 'argparse', 'inspect',

@@ -4,9 +4,8 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parents[1] / 'src'
+from sources import SOURCE
 
 # Each thread starts with what is bundled and meets a value that is not, at the same time.
 CODE = '''

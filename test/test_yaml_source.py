@@ -15,11 +15,12 @@ import pytest
 import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sources import ROOT, SOURCE
+
 from rocon_uri.yaml_source import (
     MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, load, load_file, located,
     read_file)
 
-ROOT = Path(__file__).resolve().parents[1]
 CAMERA = str(ROOT / 'test/unit/specs/interfaces/RGBCamera.yaml')
 
 
@@ -102,16 +103,19 @@ def test_not_a_number_is_one():
 
 
 @pytest.mark.usefixtures('parser')
-@pytest.mark.parametrize('text', [
-    '- &a {x: 1, y: 1}\n- {y: 2, <<: *a, z: 2}',
-    '- &a {x: 1, y: 1}\n- &b {y: 2}\n- {<<: [*a, *b]}\n- {<<: [*b, *a], x: 3}',
-    '- &a {x: 1}\n- &b {<<: *a, y: 2}\n- {<<: *b, <<: {x: 5}}',
-    '{"<<": x}',
+@pytest.mark.parametrize('text, merged', [
+    ('{y: 2, <<: *a, z: 2}', {'x': 1, 'y': 2, 'z': 2}),
+    ('{<<: [*a, *b]}', {'y': 1, 'x': 1}),           # of a list, the first that has a key
+    ('{<<: [*b, *a], x: 3}', {'x': 3, 'y': 2}),
+    ('{<<: {<<: *a, y: 2}}', {'x': 1, 'y': 2}),
+    ('{<<: *a, <<: {x: 5}}', {'x': 5, 'y': 1}),     # of two merge keys, the last that has a key
+    ('{"<<": *b}', {'<<': {'y': 2}}),
 ])
-def test_merge_keys_are_read_as_yaml_does(text):
-    data = load(text)
-    assert data == yaml.safe_load(text)
-    assert [list(item) for item in data] == [list(item) for item in yaml.safe_load(text)]
+def test_merge_keys(text, merged):
+    # as PyYAML had them until 6.0.4, which goes by whether two keys are one object
+    data = load('- &a {x: 1, y: 1}\n- &b {y: 2}\n- ' + text)[2]
+    assert data == merged
+    assert list(data) == list(merged)
 
 
 NUMBERLIKE = st.text(alphabet='0123456789+-._:eExXbBafAFnNiIoOyYsStTrRuUlL~<=T Z', max_size=12)
@@ -458,4 +462,4 @@ def test_yaml_is_imported_only_when_something_is_read():
             'capabilities.specs.semantic_interface\n'
             "assert not {'yaml', 'logging', 'json', 'typing', 'rospkg'} & set(sys.modules)")
     subprocess.run([sys.executable, '-S', '-c', code], check=True,
-                   env={**os.environ, 'PYTHONPATH': str(ROOT / 'src')})
+                   env={**os.environ, 'PYTHONPATH': str(SOURCE)})

@@ -65,6 +65,7 @@ class Reader:
             raise
         # Beside its own errors, the parser in Python raises what int() and chr() do.
         except (yaml.YAMLError, ValueError, OverflowError) as error:
+            self._check_what_was_read_ahead(error)
             raise self._parser_error(error) from error
 
     def _mapping(self, start: Any, depth: int) -> YamlMapping:
@@ -228,6 +229,15 @@ class Reader:
     def _error(self, problem: str, event: Any) -> YamlError:
         mark = event.start_mark
         return YamlError(problem, self.file_name, mark.line + 1, mark.column + 1)
+
+    def _check_what_was_read_ahead(self, error: Exception) -> None:
+        """
+        Refuse what is in the events that were still to come, if depth is what ends the reading.
+
+        As of libyaml 0.2.6 it does, 1,000 deep, and libyaml reads ahead of its events.
+        """
+        if getattr(error, 'problem', None) == 'exceeded maximum nesting depth':
+            Reader(self.text[:error.problem_mark.index], self.file_name).document()  # type: ignore
 
     def _parser_error(self, error: Exception) -> YamlError:
         """What the parser has to say, on one line."""
