@@ -226,3 +226,12 @@ def test_the_grammar_is_shown_with_the_vocabulary_in_it():
     assert len(set(rules)) == len(rules)
     for symbol in ('platform', 'framework', 'system', 'rocon_uri', 'regex', 'count'):
         assert symbol in rules
+
+
+def test_a_long_rule_of_the_grammar_goes_on_below_its_equals_sign():
+    long, empty = ['a' * 78, 'b' * 84, 'c' * 255], []
+    text = ebnf({'hardware_platform': long, 'application_framework': empty,
+                 'operating_system': empty})
+    assert text.split('\n')[-6:] == [
+        'platform    = "*" | "%s"' % long[0], '            | "%s"' % long[1],
+        '            | "%s" ;' % long[2], 'framework   = "*" ;', 'system      = "*" ;', '']

@@ -10,7 +10,7 @@ import re
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Iterable, List, Mapping, Optional, Tuple
+    from typing import Iterable, Mapping, Optional, Tuple
 
 __all__ = ['ALTERNATIVES_LIMIT', 'EBNF', 'NAME_LIMIT', 'TEXT_LIMIT', 'VOCABULARY_FIELDS',
            'decoded', 'ebnf', 'is_literal', 'is_rocon_app', 'raw_span', 'split', 'stray_character']
@@ -128,7 +128,7 @@ def raw_span(raw: str, start: int, end: int) -> Tuple[int, int]:
     starts = [match.start() for match in re.finditer('%[0-9A-Fa-f]{2}|.', raw, re.DOTALL)
               if not re.match('%[89ABab]', match.group())]
     starts.append(len(raw))
-    return starts[min(start, len(starts) - 1)], starts[min(end, len(starts) - 1)]
+    return starts[start], starts[end]
 
 
 def ebnf(values: Mapping[str, Iterable[str]]) -> str:
@@ -148,10 +148,9 @@ def ebnf(values: Mapping[str, Iterable[str]]) -> str:
 
 def _choice(symbol: str, values: Iterable[str]) -> str:
     """One rule of EBNF: a choice of quoted values, wrapped at 100 characters."""
-    lines: List[str] = ['%-11s = "*"' % symbol]
-    for value in values:
-        item = ' | "%s"' % value
-        if len(lines[-1]) + len(item) > 98:
-            lines.append(' ' * 13)
-        lines[-1] += item
-    return '\n'.join(lines) + ' ;\n'
+    import textwrap     # which who parses need not have
+    # no-break spaces, so that each line begins with a '|'
+    choice = ' |\xa0'.join('"%s"' % value for value in ('*', *values))
+    rule = textwrap.fill('%-11s = %s\xa0;' % (symbol, choice), 100, subsequent_indent=' ' * 12,
+                         break_long_words=False)
+    return rule.replace('\xa0', ' ') + '\n'
