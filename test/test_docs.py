@@ -25,7 +25,7 @@ def commands():
             yield pytest.param(command, output.strip('\n'), id='%s: %s' % (page, command))
 
 
-@pytest.mark.parametrize('command, output', commands())
+@pytest.mark.parametrize('command, output', list(commands()))
 def test_a_command_prints_what_the_page_says(command, output):
     environment = dict(os.environ, ROS_PACKAGE_PATH='', ROCON_URI_RULES='')
     printed = subprocess.run(

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_packages import make_package
 
-from rocon_uri.exceptions import quoted
+from rocon_uri.exceptions import quoted_path
 from rocon_uri.lint import ERROR, WARNING, Finding, check_packages
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -268,7 +268,7 @@ def test_a_provider_of_nothing_and_two_specs_of_one_name_are_errors(tmp_path, mo
         tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA, interfaces__Other_yaml=CAMERA,
         providers__usb_camera_yaml=USB_CAMERA.replace('ours/Camera', 'ours/Camrea')) == [
         "interfaces/Other.yaml:1:7: error: 'ours/Camera' is the name of an interface already, in "
-        + quoted(str(tmp_path / 'ours/interfaces/Camera.yaml')),
+        + quoted_path(str(tmp_path / 'ours/interfaces/Camera.yaml')),
         "providers/usb_camera.yaml:4:13: error: provider 'ours/usb_camera' implements "
         "'ours/Camrea', which is no interface that any package exports "
         "(did you mean 'ours/Camera'?)"]

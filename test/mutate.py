@@ -1,0 +1,96 @@
+"""
+Change one module here and there, and see which of the changes its tests do not notice.
+
+Examples:
+  /usr/bin/python3 test/mutate.py grammar
+  /usr/bin/python3 test/mutate.py regular_language
+
+What is changed is a copy of this tree, in build/mutation, by cosmic-ray, which is installed there
+from PyPI. It takes up to an hour for a module. Each change that no test notices is shown, and what
+share they do notice.
+"""
+from __future__ import annotations
+
+import argparse
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+WORK = ROOT / 'build' / 'mutation'
+
+#: Modules, and the tests of each: those that notice most first, since the first failure ends it.
+TESTS = {
+    'grammar': ['conformance', 'uri', 'errors', 'vocabulary', 'import_cost'],
+    'uri': ['conformance', 'uri', 'compatibility', 'errors', 'import_cost', 'vocabulary',
+            'threads'],
+    'compatibility': ['conformance', 'compatibility', 'cli_verbs'],
+    'name_pattern': ['name_pattern', 'conformance', 'compatibility', 'import_cost'],
+    'regular_language': ['regular_language', 'name_pattern', 'regular_walk'],
+    'regular_product': ['regular_language', 'name_pattern', 'compatibility'],
+    'regular_syntax': ['name_pattern', 'conformance', 'regular_language'],
+    'regular_tree': ['regular_language', 'name_pattern', 'compatibility'],
+    'regular_walk': ['regular_walk', 'resource_index'],
+}
+
+CONFIG = '''\
+[cosmic-ray]
+module-path = "src/rocon_uri/%s.py"
+timeout = 120.0
+excluded-modules = []
+test-command = "%s"
+
+[cosmic-ray.distributor]
+name = "local"
+'''
+
+
+def main() -> int:
+    """Do it, and return the exit status: 1 if the tests fail on the module as it is."""
+    parser = argparse.ArgumentParser('test/mutate.py', description=(__doc__ or '').strip(),
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('module', choices=TESTS, help='what to change')
+    module = parser.parse_args().module
+
+    python, tree = installed(), copied(module)
+    tests = ['test/test_%s.py' % name for name in TESTS[module]]
+    (tree / 'config.toml').write_text(CONFIG % (module, ' '.join(
+        ['env', 'PYTHONPATH=src', 'PYTHONDONTWRITEBYTECODE=1', python, '-m', 'pytest', '-qx',
+         '-p', 'no:cacheprovider', *tests])))
+    for command in (['baseline', 'config.toml'], ['init', 'config.toml', 'session.sqlite'],
+                    ['exec', 'config.toml', 'session.sqlite']):
+        done = subprocess.run([beside(python, 'cosmic-ray'), *command], cwd=str(tree))
+        if done.returncode != 0:
+            return 1
+    for command in (['cr-report', '--surviving-only', '--show-diff'], ['cr-rate']):
+        program, *options = command
+        subprocess.run([beside(python, program), *options, 'session.sqlite'], cwd=str(tree))
+    return 0
+
+
+def installed() -> str:
+    """The Python of an environment with cosmic-ray, which sees what the system has too."""
+    environment = WORK / 'environment'
+    python = str(environment / 'bin' / 'python')
+    subprocess.run([sys.executable, '-m', 'venv', '--system-site-packages', str(environment)],
+                   check=True)
+    subprocess.run([python, '-m', 'pip', 'install', '--quiet', 'cosmic-ray==8.7.0'], check=True)
+    return python
+
+
+def beside(python: str, program: str) -> str:
+    return str(Path(python).with_name(program))
+
+
+def copied(module: str) -> Path:
+    """A tree that may be changed."""
+    tree = WORK / module
+    shutil.rmtree(str(tree), ignore_errors=True)
+    shutil.copytree(str(ROOT), str(tree), ignore=shutil.ignore_patterns(
+        'build', '.git', '__pycache__', '.*_cache', '.hypothesis'))
+    return tree
+
+
+if __name__ == '__main__':
+    sys.exit(main())
