@@ -24,20 +24,20 @@ WORK = ROOT / 'build' / 'mutation'
 TESTS = {
     'grammar': ['conformance', 'uri', 'errors', 'vocabulary', 'import_cost'],
     'uri': ['conformance', 'uri', 'compatibility', 'errors', 'import_cost', 'vocabulary',
-            'threads'],
-    'compatibility': ['conformance', 'compatibility', 'cli_verbs'],
+            'exported_rules', 'threads'],
+    'compatibility': ['conformance', 'compatibility', 'import_cost', 'exported_rules'],
     'name_pattern': ['name_pattern', 'conformance', 'compatibility', 'import_cost'],
-    'regular_language': ['regular_language', 'name_pattern', 'regular_walk'],
-    'regular_product': ['regular_language', 'name_pattern', 'compatibility'],
+    'regular_language': ['regular_walk', 'name_pattern', 'regular_language'],
+    'regular_product': ['name_pattern', 'compatibility', 'regular_language'],
     'regular_syntax': ['name_pattern', 'conformance', 'regular_language'],
-    'regular_tree': ['regular_language', 'name_pattern', 'compatibility'],
+    'regular_tree': ['name_pattern', 'compatibility', 'regular_language'],
     'regular_walk': ['regular_walk', 'resource_index'],
 }
 
 CONFIG = '''\
 [cosmic-ray]
 module-path = "src/rocon_uri/%s.py"
-timeout = 120.0
+timeout = 600.0
 excluded-modules = []
 test-command = "%s"
 
@@ -57,7 +57,7 @@ def main() -> int:
     tests = ['test/test_%s.py' % name for name in TESTS[module]]
     (tree / 'config.toml').write_text(CONFIG % (module, ' '.join(
         ['env', 'PYTHONPATH=src', 'PYTHONDONTWRITEBYTECODE=1', python, '-m', 'pytest', '-qx',
-         '-p', 'no:cacheprovider', *tests])))
+         '-p', 'no:cacheprovider', '--timeout', '60', *tests])))
     for command in (['baseline', 'config.toml'], ['init', 'config.toml', 'session.sqlite'],
                     ['exec', 'config.toml', 'session.sqlite']):
         done = subprocess.run([beside(python, 'cosmic-ray'), *command], cwd=str(tree))
@@ -75,7 +75,8 @@ def installed() -> str:
     python = str(environment / 'bin' / 'python')
     subprocess.run([sys.executable, '-m', 'venv', '--system-site-packages', str(environment)],
                    check=True)
-    subprocess.run([python, '-m', 'pip', 'install', '--quiet', 'cosmic-ray==8.7.0'], check=True)
+    subprocess.run([python, '-m', 'pip', 'install', '--quiet', 'cosmic-ray==8.7.0',
+                    'pytest-timeout==2.4.0'], check=True)
     return python
 
 

@@ -84,6 +84,7 @@ def test_only_is_compatible_takes_what_is_not_registered(compare):
 
 @pytest.mark.parametrize('a, b, compatible, lies', [
     ('rocon://north/pr2', 'rocon://north/pr2', True, 'equal'),
+    ('rocon://north/pr2', 'rocon://north/pr2/bob', True, 'superset'),
     ('rocon://north/pr2', 'rocon://south/pr2', False, 'disjoint'),
     ('rocon://north/pr2', 'rocon:/pr2', True, 'subset'),
     ('rocon://north', 'rocon:/', True, 'subset'),
@@ -231,6 +232,15 @@ def test_values_of_an_open_vocabulary_are_shared():
         '  name                   bob*   bob     bob',
         '  application_framework  *      *       *',
         '  operating_system       *      *       *']),
+    ('rocon://north/pr2|fetch/bob/noetic|hydro/focal|jammy',
+     'rocon:/kobuki|pr2/bob/noetic|foxy/focal|web', [
+        'compatible',
+        '  field                  first         second       in common',
+        '  concert_name           north         *            north',
+        '  hardware_platform      pr2|fetch     kobuki|pr2   pr2',
+        '  name                   bob           bob          bob',
+        '  application_framework  noetic|hydro  noetic|foxy  noetic',
+        '  operating_system       focal|jammy   focal|web    focal']),
     ('rocon://north/kobuki/*_left/ros', 'rocon://south/pr2/arm_*/noetic', [
         'not compatible',
         '   field                  first   second  in common',

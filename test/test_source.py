@@ -1,6 +1,8 @@
 """What the source promises: Python 3.8, types that fit, and nothing that a linter minds."""
 from __future__ import annotations
 
+import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -11,10 +13,22 @@ ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ['src', 'scripts', 'test', 'benchmark', 'setup.py']
 
 
-def check(program: str, *arguments: str) -> None:
-    if shutil.which(program) is None:
+TYPES = [
+    ('concert_name', 'str'), ('hardware_platform', 'ValuesField'), ('name', 'NameField'),
+    ('application_framework', 'ValuesField'), ('operating_system', 'ValuesField'),
+    ('rocon_app', 'str'), ('rapp', 'str'), ('vocabulary', 'Vocabulary'),
+    ('read_with_one_slash', 'bool'), ('short', 'str'), ('name.is_any', 'bool')]
+
+
+def found(program: str) -> str:
+    path = shutil.which(program)
+    if path is None:
         pytest.skip('%s is not installed' % program)
-    done = subprocess.run([program, *arguments], cwd=str(ROOT), stdout=subprocess.PIPE,
+    return path
+
+
+def check(program: str, *arguments: str) -> None:
+    done = subprocess.run([found(program), *arguments], cwd=str(ROOT), stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, universal_newlines=True)
     assert done.returncode == 0, done.stdout
 
@@ -35,3 +49,16 @@ def test_is_a_catkin_package_as_it_should_be(tmp_path: Path) -> None:
     # by a path whose end is its name, as in a workspace
     (tmp_path / 'rocon_uri').symlink_to(ROOT)
     check('catkin_lint', '-W2', '--strict', '--offline', str(tmp_path / 'rocon_uri'))
+
+
+def test_those_who_use_it_get_its_types(tmp_path: Path) -> None:
+    program = tmp_path / 'program.py'
+    program.write_text('\n'.join(
+        ['import rocon_uri', "uri = rocon_uri.parse('rocon:/pr2')"]
+        + ['reveal_type(uri.%s)  # %s' % (attribute, type_name) for attribute, type_name in TYPES]))
+    done = subprocess.run(
+        [found('mypy'), '--strict', '--no-incremental', '--follow-imports=silent', str(program)],
+        env=dict(os.environ, MYPYPATH=str(ROOT / 'src')), stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT, universal_newlines=True)
+    revealed = re.findall('Revealed type is "(?:[a-z_]+[.])*([A-Za-z]+)"', done.stdout)
+    assert revealed == [type_name for _, type_name in TYPES], done.stdout

@@ -228,7 +228,7 @@ def test_replace_keeps_the_vocabulary():
 
 @pytest.mark.parametrize('text', [None, b'rocon:/pr2', 3, ['rocon:/pr2']])
 def test_what_is_no_text_is_a_type_error(text):
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError, match='a rocon URI is a str, not %s' % type(text).__name__):
         parse(text)
 
 
@@ -291,6 +291,20 @@ def test_texts_are_remembered_with_the_vocabulary_that_read_them():
     assert parse(text, theirs).vocabulary is theirs
     assert parse(parse(text, ours)).vocabulary is ours
     assert parse(parse(text, ours), theirs).vocabulary is theirs
+
+
+def test_texts_up_to_1024_characters_are_remembered():
+    everything = Vocabulary.bundled().opened()
+    longest = 'rocon:/' + '|'.join(['abcdefg'] * 128)[:1017]
+    texts = ['rocon:/pr2', 'rocon:/kobuki/' + 'b' * 200, longest]
+    uris = [parse(text, everything) for text in texts]
+    assert len(longest) == 1024
+    assert all(parse(text, everything) is uri for text, uri in zip(texts, uris))
+    assert parse(longest + 'g', everything) is not parse(longest + 'g', everything)
+    assert len(everything.uris_read) == len(texts)
+    for number in range(4096 - len(texts)):
+        parse('rocon:/v%d' % number, everything)
+    assert all(parse(text, everything) is uri for text, uri in zip(texts, uris))
 
 
 def test_what_is_remembered_is_bounded():

@@ -31,6 +31,11 @@ _MEMO_TEXT_LENGTH = 1024    # characters; longer ones are read anew each time
 _LEFT_OUT = ('',) * 5       # what the parts between slashes are where there are fewer
 
 
+def _slot(name: str, doc: str) -> Any:
+    """A property that reads a slot."""
+    return property(attrgetter(name), doc=doc)
+
+
 class RoconURI:
     """
     A set of resources: the product of the sets that its fields stand for.
@@ -116,23 +121,21 @@ class RoconURI:
         own.update(fields)
         return self.from_fields(**own)
 
-    concert_name = property(
-        attrgetter('_concert_name'),
-        doc='The concert that the resource is attached to, a str; empty for any.')
-    hardware_platform = property(
-        attrgetter('_hardware_platform'), doc='The hardware, as ``turtlebot2``; a `Field`.')
-    application_framework = property(
-        attrgetter('_application_framework'), doc='The framework, as ``noetic``; a `Field`.')
-    operating_system = property(
-        attrgetter('_operating_system'), doc='The system, as ``focal``; a `Field`.')
-    rocon_app = property(
-        attrgetter('_rocon_app'), doc='The app that runs there, a str; empty for none.')
-    rapp = rocon_app    # its old name
-    vocabulary = property(
-        attrgetter('_vocabulary'), doc='What the URI was read with, a `Vocabulary`.')
-    read_with_one_slash = property(
-        attrgetter('_read_with_one_slash'),
-        doc='Was the part after ``//`` taken for the platform, since it is a registered one?')
+    concert_name: str = _slot(
+        '_concert_name', 'The concert that the resource is attached to, a str; empty for any.')
+    hardware_platform: ValuesField = _slot(
+        '_hardware_platform', 'The hardware, as ``turtlebot2``; a `Field`.')
+    application_framework: ValuesField = _slot(
+        '_application_framework', 'The framework, as ``noetic``; a `Field`.')
+    operating_system: ValuesField = _slot(
+        '_operating_system', 'The system, as ``focal``; a `Field`.')
+    rocon_app: str = _slot('_rocon_app', 'The app that runs there, a str; empty for none.')
+    rapp: str = rocon_app   # its old name
+    vocabulary: Vocabulary = _slot(
+        '_vocabulary', 'What the URI was read with, a `Vocabulary`.')
+    read_with_one_slash: bool = _slot(
+        '_read_with_one_slash',
+        'Was the part after ``//`` taken for the platform, since it is a registered one?')
 
     @property
     def name(self) -> NameField:
