@@ -45,7 +45,9 @@ def test_types_fit_together():
     check('mypy', '--no-incremental')
 
 
-def test_is_a_catkin_package_as_it_should_be(tmp_path: Path) -> None:
+def test_is_a_catkin_package_as_it_should_be(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)    # by which it has its own path
     # by a path whose end is its name, as in a workspace
     (tmp_path / 'rocon_uri').symlink_to(ROOT)
     check('catkin_lint', '-W2', '--strict', '--offline', str(tmp_path / 'rocon_uri'))
