@@ -121,10 +121,28 @@ def test_a_concert_that_bears_the_name_of_a_platform_stays_one(concert, platform
     ('rocon://north/*/*/*/*', 'rocon://north'),
     ('rocon://north/*/*/ros/*#a', 'rocon://north/*/*/ros#a'),
     ('rocon:/*/*/*/*#a', 'rocon:/#a'),
+    ('rocon:/pr2/(a|b)/*/*', 'rocon:/pr2/(a|b)'),
 ])
 def test_the_short_text_writes_what_reading_it_back_needs(text, short):
     assert parse(text).short == short
     assert parse(short) == parse(text)
+
+
+def test_what_is_made_of_values_that_were_read_before_is_read_no_otherwise():
+    known = Vocabulary.bundled()
+    parse('rocon:/pr2/bob/noetic/focal', known)
+    uri = parse('rocon:/pr2/alice/noetic/focal#teleop', known)
+    assert str(uri) == 'rocon:/pr2/alice/noetic/focal#teleop'
+    assert uri.read_with_one_slash is False
+    for scheme in ('a', 'zocon:', 'rocon', ''):
+        with pytest.raises(RoconURIValueError, match="does not start with 'rocon:'"):
+            parse(scheme + '/pr2/alice/noetic/focal', known)
+
+
+def test_the_constructor_reads_as_parse_does():
+    assert RoconURI('rocon://turtlebot2').read_with_one_slash
+    assert RoconURI('rocon://turtlebot2', strict=True).concert_name == 'turtlebot2'
+    assert str(RoconURI()) == 'rocon:/*/*/*/*'
 
 
 # Limits

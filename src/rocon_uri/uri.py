@@ -369,7 +369,7 @@ def _read_common(text: str, vocabulary: Vocabulary) -> Optional[RoconURI]:
     return _new('', values, name, None, app, vocabulary)
 
 
-def _read(text: str, vocabulary: Vocabulary, strict: bool = False) -> RoconURI:
+def _read(text: str, vocabulary: Vocabulary, strict: bool) -> RoconURI:
     if len(text) > grammar.TEXT_LIMIT:
         raise RoconURIValueError('a rocon URI has at most %d characters, not %d'
                                  % (grammar.TEXT_LIMIT, len(text)), text, value=text)
