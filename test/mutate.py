@@ -57,7 +57,8 @@ def main() -> int:
     tests = ['test/test_%s.py' % name for name in TESTS[module]]
     (tree / 'config.toml').write_text(CONFIG % (module, ' '.join(
         ['env', 'PYTHONPATH=src', 'PYTHONDONTWRITEBYTECODE=1', python, '-m', 'pytest', '-qx',
-         '-p', 'no:cacheprovider', '--timeout', '60', *tests])))
+         '-p', 'no:cacheprovider', '--hypothesis-profile', 'no_shrinking', '--timeout', '60',
+         *tests])))
     for command in (['baseline', 'config.toml'], ['init', 'config.toml', 'session.sqlite'],
                     ['exec', 'config.toml', 'session.sqlite']):
         done = subprocess.run([beside(python, 'cosmic-ray'), *command], cwd=str(tree))
