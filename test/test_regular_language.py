@@ -11,6 +11,8 @@ import random
 import re
 import threading
 import tracemalloc
+from functools import reduce
+from operator import or_
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -18,7 +20,7 @@ from hypothesis import strategies as st
 
 from rocon_uri import regular_language
 from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
-from rocon_uri.regular_language import Language
+from rocon_uri.regular_language import Language, Unions
 from rocon_uri.regular_product import WORK_LIMIT, Product, common_name, difference, includes
 from rocon_uri.regular_syntax import COUNT_LIMIT, DEPTH_LIMIT, SIZE_LIMIT, parse
 from rocon_uri.ros_names import is_legal_base_name
@@ -101,6 +103,21 @@ def test_matches_whole_legal_names_only(text, names, others):
 def test_matches_where_what_may_follow_is_a_thousand_positions_away(lengths, expected):
     name = ''.join('x' * length + 'c' for length in lengths) + 'd'
     assert language('(.{250}.{250}.?.{250}.{249}c)*d').matches(name) is expected
+
+
+@pytest.mark.parametrize('size', [0, 1, 3, 4, 5, 255, 256, 257, 513, 1100])
+def test_unions_are_those_of_the_sets_that_are_selected(size):
+    rng = random.Random(size)
+    far = [1 << rng.randrange(2 * size + 1) for _ in range(3)]
+    sets = [(rng.getrandbits(6) << max(0, index - 3)) | rng.choice([0, 0, *far, sum(set(far))])
+            for index in range(size)]
+    union_of = Unions(sets)
+    selections = [0, *(1 << index for index in range(size)), (1 << size) - 1]
+    selections += [rng.getrandbits(size) & rng.getrandbits(size) for _ in range(200 if size else 0)]
+    selections += [3 << rng.randrange(size - 1) for _ in range(200 if size > 1 else 0)]
+    for selection in selections:
+        members = (sets[index] for index in range(size) if selection >> index & 1)
+        assert union_of(selection) == reduce(or_, members, 0)
 
 
 @pytest.mark.parametrize('text, equal', [
