@@ -26,7 +26,6 @@ from rocon_uri.package_rules import vocabulary_from_package_index
 from rocon_uri.rapps import InvalidRapp, rapps_from_package_index, runnable
 from rocon_uri.yaml_source import YamlError
 
-
 INTERFACE = 'name: %s\nspec_version: 1\nspec_type: interface\n'
 PROVIDER = ('name: camera\nspec_version: 1\nspec_type: provider\nimplements: good/Camera\n'
             'launch_file: %s\n')

@@ -1,4 +1,4 @@
-"""The bundled vocabulary: what has to be in it, and that it is well formed."""
+"""The bundled files: what has to be in the vocabulary, and that it is well formed."""
 from __future__ import annotations
 
 import json
@@ -6,6 +6,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from sources import SOURCE
 
 import rocon_uri.vocabulary
 from rocon_uri.ros_names import is_legal_base_name
@@ -97,3 +98,8 @@ def test_other_releases_are_what_os_detect_calls_them(group, os_release, tmp_pat
     codename = distro.LinuxDistribution(include_lsb=False, os_release_file=str(path)).codename()
     assert ('linux', group) in [above for name, above in registered('operating_system')
                                 if name == codename.split()[0].lower()]
+
+
+def test_its_types_are_installed_too():
+    for package in ('rocon_uri', 'capabilities'):
+        assert (SOURCE / package / 'py.typed').exists()

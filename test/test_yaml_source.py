@@ -299,6 +299,24 @@ def test_nesting_is_limited_before_it_costs(opening, column):
     assert error_of(opening * 50000) == 'f:1:%d: nested deeper than 100' % column
 
 
+def test_nesting_is_refused_where_it_starts_also_if_the_parser_gives_up_first(monkeypatch):
+    # as that of libyaml 0.2.6 does, 1,000 deep in what it reads ahead
+    class Loader(yaml.SafeLoader):
+        def get_event(self):
+            if len(given) <= 1000:
+                return super().get_event()
+            mark = yaml.Mark('', 1000, 0, 1000, None, None)
+            raise yaml.scanner.ScannerError(None, mark, 'exceeded maximum nesting depth', mark)
+
+    def loader(text):
+        nonlocal given
+        given = text
+        return Loader(text)
+    given = ''
+    monkeypatch.setattr(yaml, 'CSafeLoader', loader, raising=False)
+    assert error_of('[' * 50000) == 'f:1:101: nested deeper than 100'
+
+
 @pytest.mark.usefixtures('parser')
 def test_the_limits_are_where_they_are_said_to_be():
     assert load('[' * MAX_DEPTH + ']' * MAX_DEPTH)

@@ -232,9 +232,9 @@ class Reader:
 
     def _check_what_was_read_ahead(self, error: Exception) -> None:
         """
-        Refuse what is in the events that were still to come, if depth is what ends the reading.
+        Refuse what is wrong in the events that were still to come, if it was depth that ended them.
 
-        As of libyaml 0.2.6 it does, 1,000 deep, and libyaml reads ahead of its events.
+        libyaml reads ahead of its events and, from 0.2.6 on, gives up 1,000 deep.
         """
         if getattr(error, 'problem', None) == 'exceeded maximum nesting depth':
             Reader(self.text[:error.problem_mark.index], self.file_name).document()  # type: ignore

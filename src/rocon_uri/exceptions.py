@@ -10,8 +10,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Callable, Iterable, List, Optional, Tuple
 
-__all__ = ['PatternTooComplex', 'RoconURIValueError', 'did_you_mean', 'near_misses', 'quoted',
-           'quoted_path']
+__all__ = ['PatternTooComplex', 'RoconURIValueError', 'did_you_mean', 'near_misses',
+           'printable', 'quoted', 'quoted_path']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _NEAR_LENGTH = 64       # a longer text is nobody's typing error; bounds the cost of the search
@@ -29,7 +29,7 @@ def quoted(text: str) -> str:
     """
     if len(text) > _QUOTED_LENGTH:
         text = text[:_QUOTED_LENGTH - 3] + '...'
-    return quoted_path(text)
+    return "'%s'" % printable(text)
 
 
 def quoted_path(path: str) -> str:
@@ -42,7 +42,20 @@ def quoted_path(path: str) -> str:
     >>> print(quoted_path('/home' + '/bob' * 20)[-9:])
     /bob/bob'
     """
-    return "'%s'" % ''.join(c if c.isprintable() else repr(c)[1:-1] for c in path)
+    return "'%s'" % printable(path)
+
+
+def printable(text: str) -> str:
+    """
+    The text on one line, with what cannot be shown there escaped.
+
+    :param str text: anything
+    :returns: str
+
+    >>> print(printable('a' + chr(10) + 'b'))
+    a\\nb
+    """
+    return ''.join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
 def near_misses(text: str, candidates: Iterable[str]) -> List[str]:

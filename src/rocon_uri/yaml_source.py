@@ -40,7 +40,7 @@ from __future__ import annotations
 
 import re
 
-from rocon_uri.exceptions import did_you_mean, near_misses, quoted, quoted_path
+from rocon_uri.exceptions import did_you_mean, near_misses, printable, quoted, quoted_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def located(problem: str, file_name: str, line: Optional[int], column: Optional[
     "laser.yaml:12:5: topic 'scan' has no type"
     """
     place = file_name if line is None else '%s:%s:%s' % (file_name, line, column)
-    return ''.join(c if c.isprintable() else repr(c)[1:-1] for c in '%s: %s' % (place, problem))
+    return printable('%s: %s' % (place, problem))
 
 
 class YamlError(ValueError):
