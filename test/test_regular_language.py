@@ -470,6 +470,15 @@ def test_the_memo_of_a_language_is_bounded():
         tracemalloc.stop()
 
 
+def test_all_names_are_free_once_they_were_matched_and_there_is_room_for_them():
+    found = language('(bob_[0-9]+|(alice|carol)_[a-f]{4})')
+    names = ['bob_17', 'alice_cafe', 'dave', 'carol_face', 'bob_', 'alice_x']
+    first = [found.matches(name) for name in names]
+    before = found.work
+    assert [found.matches(name) for name in names * 2] == first * 2
+    assert found.work == before
+
+
 def test_the_next_match_is_free_however_full_the_memo_is():
     found = language('.*a.{200}')
     rng = random.Random(5)

@@ -308,7 +308,7 @@ def language(text: str, tree: Callable[[str], Node]) -> Language:
         _languages[text] = found
         room = _MEMO_BYTES - sum(map(_weight, _languages.values()))
         for oldest in list(_languages):
-            if room >= 0 or oldest == text:
+            if room >= 0:       # at the latest with this one, whatever its size
                 break
             room += _weight(_languages.pop(oldest))
     return found
