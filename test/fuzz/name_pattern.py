@@ -111,15 +111,20 @@ def is_in_grammar(text):
             and all(int(low) <= int(high or 255) <= 255 for low, high in counts))
 
 
+def is_easy_for_re(text):
+    """Does `re` need no more than a moment, though it tries one way after the other?"""
+    counted = re.findall(r'\d+', ' '.join(re.findall(r'\{[^}]*\}', text)))
+    steps = functools.reduce(lambda steps, count: steps * (int(count) + 1), counted, 1)
+    return steps <= 12 and len(re.findall(r'[*+?}|]', text)) <= 8
+
+
 def expected_names(text):
     """The SHORT_NAMES that `re` finds, or None where that is no help or takes for ever."""
     if not is_in_grammar(text):
         return None
     if re.fullmatch(r'[\w*]+', text, re.ASCII):
         text = re.sub(r'\*+', r'\\w*', text)
-    counted = re.findall(r'\d+', ' '.join(re.findall(r'\{[^}]*\}', text)))
-    steps = functools.reduce(lambda steps, count: steps * (int(count) + 1), counted, 1)
-    if steps > 12 or len(re.findall(r'[*+?}|]', text)) > 8:
+    if not is_easy_for_re(text):
         return None
     with warnings.catch_warnings():
         warnings.simplefilter('ignore')     # that a set could mean something else in the future
