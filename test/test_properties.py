@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import copy
+import gc
 import itertools
 import pickle
 import re
@@ -282,6 +283,7 @@ def work(function, *arguments):
         done += 1
         return count
     others = sys.gettrace(), sys.getprofile()      # of who measures what the tests cover
+    gc.disable()        # hypothesis has it call back
     sys.settrace(count)
     sys.setprofile(count)
     try:
@@ -291,6 +293,7 @@ def work(function, *arguments):
     finally:
         sys.settrace(others[0])
         sys.setprofile(others[1])
+        gc.enable()
     return done
 
 
