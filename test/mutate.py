@@ -57,36 +57,32 @@ def main() -> int:
     if sys.version_info < (3, 9):
         parser.error('cosmic-ray needs Python 3.9')
 
-    python, tree = installed(), copied(module)
+    programs, tree = installed(), copied(module)
     tests = ['test/test_%s.py' % name for name in TESTS[module]]
     test_command = ' '.join(map(shlex.quote, [
-        'env', 'PYTHONPATH=src', 'PYTHONDONTWRITEBYTECODE=1', python, '-m', 'pytest', '-qx',
-        '-p', 'no:cacheprovider', '--hypothesis-profile', 'no_shrinking', '--timeout', '60',
-        *tests]))
+        'env', 'PYTHONPATH=src', 'PYTHONDONTWRITEBYTECODE=1', str(programs / 'python'), '-m',
+        'pytest', '-qx', '-p', 'no:cacheprovider', '--hypothesis-profile', 'no_shrinking',
+        '--timeout', '60', *tests]))
     (tree / 'config.toml').write_text(CONFIG % (module, json.dumps(test_command)))
     for command in (['baseline', 'config.toml'], ['init', 'config.toml', 'session.sqlite'],
                     ['exec', 'config.toml', 'session.sqlite']):
-        done = subprocess.run([beside(python, 'cosmic-ray'), *command], cwd=str(tree))
+        done = subprocess.run([str(programs / 'cosmic-ray'), *command], cwd=str(tree))
         if done.returncode != 0:
             return 1
-    subprocess.run([beside(python, 'cr-report'), '--surviving-only', '--show-diff',
+    subprocess.run([str(programs / 'cr-report'), '--surviving-only', '--show-diff',
                     'session.sqlite'], cwd=str(tree))
     return 0
 
 
-def installed() -> str:
-    """The Python of an environment with cosmic-ray, which sees what the system has too."""
+def installed() -> Path:
+    """The programs of an environment with cosmic-ray, which sees what the system has too."""
     environment = WORK / 'environment'
-    python = str(environment / 'bin' / 'python')
     subprocess.run([sys.executable, '-m', 'venv', '--system-site-packages', str(environment)],
                    check=True)
-    subprocess.run([python, '-m', 'pip', 'install', '--quiet', 'cosmic-ray==8.7.0',
+    programs = environment / 'bin'
+    subprocess.run([str(programs / 'pip'), 'install', '--quiet', 'cosmic-ray==8.7.0',
                     'pytest-timeout==2.4.0'], check=True)
-    return python
-
-
-def beside(python: str, program: str) -> str:
-    return str(Path(python).with_name(program))
+    return programs
 
 
 def copied(module: str) -> Path:

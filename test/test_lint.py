@@ -2,17 +2,16 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_packages import make_package
+from sources import ROOT
 
 from rocon_uri.exceptions import quoted_path
 from rocon_uri.lint import ERROR, WARNING, Finding, check_packages
 
-ROOT = Path(__file__).resolve().parents[1]
 CORPUS = os.environ.get('ROCON_URI_CORPUS')
 needs_corpus = pytest.mark.skipif(not CORPUS, reason='ROCON_URI_CORPUS is not set')
 

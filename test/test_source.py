@@ -8,8 +8,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from sources import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ['src', 'scripts', 'test', 'benchmark', 'setup.py']
 
 pytestmark = pytest.mark.skipif(not (ROOT / 'src').is_dir(), reason='there is no source here')

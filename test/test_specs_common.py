@@ -7,16 +7,15 @@ import io
 import logging
 import os
 import pickle
-from pathlib import Path
 
 import pytest
 from capabilities.specs import interface, provider, semantic_interface
 from capabilities.specs.common import (
     InvalidSpec, SpecName, SpecWarning, split_spec_name, validate_spec_name)
 from rocon_uri.yaml_source import YamlMapping, load
+from sources import ROOT
 from specs.examples import BAD, BEYOND_SCHEMAS, GOOD, INTERFACE, ODD
 
-ROOT = Path(__file__).resolve().parents[1]
 # By kind of spec: a file, the class, the error, and the functions that read one.
 KINDS = {
     'interface': (
