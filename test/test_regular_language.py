@@ -494,25 +494,51 @@ def test_the_next_match_is_free_however_full_the_memo_is():
         assert found.work == before
 
 
-def test_the_largest_language_takes_less_than_8_megabytes():
-    name = ''.join(random.Random(9).choices('abc', k=255))
+def test_the_largest_language_takes_less_than_9_megabytes():
+    rng = random.Random(9)
     tracemalloc.start()
     try:
         found = language('(.{1,255}a){16}')
-        found.matches(name)
-        assert tracemalloc.get_traced_memory()[1] < 8e6
+        for alphabet in ('ab', 'abc', 'aab', 'abcdefghijklmnopqrstuvwxyz'):
+            found.matches('a' + ''.join(rng.choices(alphabet, k=2000)))
+        assert tracemalloc.get_traced_memory()[1] < 9e6
     finally:
         tracemalloc.stop()
 
 
-def test_languages_are_remembered_as_long_as_there_is_room():
-    used = regular_language.language('[a-z]x', parse)
+@pytest.fixture()
+def nothing_remembered(monkeypatch):
+    monkeypatch.setattr(regular_language, '_languages', {})
+
+
+def remembered(text: str) -> Language:
+    return regular_language.language(text, parse)
+
+
+@pytest.mark.usefixtures('nothing_remembered')
+def test_three_of_the_largest_languages_are_remembered_and_one_that_is_used():
+    used = remembered('[a-z]x')
     large = []
-    for start in 'abcdefghij':
-        large.append(regular_language.language('%s((a?b?){60}){34}' % start, parse))
-        assert regular_language.language('[a-z]x', parse) is used
-    assert regular_language.language(large[-1].text, parse) is large[-1]
-    assert regular_language.language(large[0].text, parse) is not large[0]
+    for start in 'abcdefgh':
+        large.append(remembered('%s((a?b?){60}){34}' % start))
+        assert remembered('[a-z]x') is used
+    assert list(regular_language._languages.values()) == [*large[-3:], used]
+    assert remembered(large[-4].text) is not large[-4]
+
+
+@pytest.mark.usefixtures('nothing_remembered')
+def test_hundreds_of_small_languages_are_remembered():
+    texts = ['bob_%d.*' % number for number in range(700)]
+    small = [remembered(text) for text in texts]
+    assert all(remembered(text) is found for text, found in zip(texts, small))
+
+
+def test_work_is_one_a_derivative_and_one_for_every_four_positions_as_far_as_the_last_one():
+    found = language('a{9}')
+    assert not found.matches('aaaaaaaa')
+    assert found.work == sum(1 + (1 + read) // 4 for read in range(8))
+    assert found.matches('aaaaaaaaa')
+    assert found.work == sum(1 + (1 + read) // 4 for read in range(9))
 
 
 def test_threads_get_right_answers_from_one_language():

@@ -32,8 +32,6 @@ _END = 1            # in a set of positions that may follow: the name may end he
 _STATES = 768       # derivatives in a memo
 _SPARE = 256        # of these, how many a name to come can count on
 _MEMO_BYTES = 32 << 20      # of all languages that are remembered, about
-_PART = 256         # positions, a multiple of 4
-_NEAR = (1 << 3 * _PART) - 1
 
 
 class _Row(_Mapping):
@@ -43,14 +41,12 @@ class _Row(_Mapping):
 
     def __init__(self, sets: List[int]) -> None:
         self.sets = sets
-        self['0'] = 0
 
     def __missing__(self, digit: str) -> int:
-        unions = [0]
-        for members in self.sets:
-            unions += [union | members for union in unions]
-        self.update(zip('0123456789abcdef', unions))
-        return self[digit]
+        chosen = int(digit, 16)
+        self[digit] = union = reduce(
+            or_, (members for index, members in enumerate(self.sets) if chosen >> index & 1), 0)
+        return union
 
 
 class Unions:
@@ -58,28 +54,13 @@ class Unions:
     Of sets that are numbered, the union of any selection.
 
     A selection can have thousands of members, so unions are taken over four of them at a time.
-    Nearly all that follows a position is near it; such unions are counted from the first position
-    of the part before and so are small numbers. What is far off is the end or the beginning of
-    some large part, and there are few sets of these.
 
     :param sets: list of int
     """
 
     def __init__(self, sets: List[int]) -> None:
         self.sets = sets
-        self._parts: List[Tuple[slice, int, List[_Row]]] = []
-        groups: Dict[int, int] = {}
-        for start in range(0, len(sets), _PART):
-            shift = max(0, start - _PART)
-            near: List[int] = []
-            for index, members in enumerate(sets[start:start + _PART], start):
-                near.append(members >> shift & _NEAR)
-                far = members ^ near[-1] << shift
-                if far:
-                    groups[far] = groups.get(far, 0) | 1 << index
-            rows = [_Row(near[index:index + 4]) for index in range(0, len(near), 4)]
-            self._parts.append((slice(start // 4, (start + _PART) // 4), shift, rows))
-        self._far = [(group, far) for far, group in groups.items()]
+        self._rows = [_Row(sets[index:index + 4]) for index in range(0, len(sets), 4)]
 
     def __call__(self, selection: int) -> int:
         """
@@ -88,17 +69,12 @@ class Unions:
         :param int selection: the set of their numbers
         :returns: int
         """
-        if not selection & (selection - 1):
+        lowest = selection & -selection
+        if selection == lowest:     # of one set or none there is nothing to unite
             return self.sets[selection.bit_length() - 1] if selection else 0
-        union, digits = 0, format(selection, 'x')[::-1]
-        for part, shift, rows in self._parts:
-            found = digits[part]
-            if found.strip('0'):
-                union |= reduce(or_, map(getitem, rows, found)) << shift
-        for group, far in self._far:
-            if selection & group:
-                union |= far
-        return union
+        before = (lowest.bit_length() - 1) // 4
+        digits = format(selection >> 4 * before, 'x')[::-1]
+        return reduce(or_, map(getitem, self._rows[before:], digits))
 
 
 class _State(_Derivatives):
@@ -315,5 +291,5 @@ def language(text: str, tree: Callable[[str], Node]) -> Language:
 
 
 def _weight(found: Language) -> int:
-    size = found.tree.size
-    return 20000 + size * (500 + size // 8)
+    """The bytes that a language may come to take, about: most are rows of sets of positions."""
+    return (found.tree.size + 300) ** 2 // 2

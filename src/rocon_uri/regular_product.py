@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ['WORK_LIMIT', 'Product', 'common_name', 'difference', 'includes']
 
-WORK_LIMIT = 600000     # of one walk; a unit takes about 0.1 microseconds and 20 bytes at most
+WORK_LIMIT = 600000     # of one walk; a unit takes 0.1 to 0.2 microseconds, and 20 bytes at most
 _COMPARED = 16          # how many of the sets come to first a new one is compared with
 _PAIRS = 1 << 18        # of positions, of which it is found out whether one covers the other
 
@@ -86,7 +86,7 @@ class Product:
         any one of them, by some name
     :param Language other: another one
 
-    ``work`` is what its walk has cost, in steps of about 0.1 microseconds.
+    ``work`` is what its walk has cost, in units as for `WORK_LIMIT`.
     """
 
     def __init__(self, one: Language, other: Language) -> None:
