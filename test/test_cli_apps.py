@@ -9,10 +9,11 @@ from pathlib import Path
 
 import pytest
 from made_packages import make_package
+from sources import ROOT
 
 from rocon_uri.cli import main
 
-EXAMPLES = Path(__file__).resolve().parents[1] / 'examples' / 'workspace'
+EXAMPLES = ROOT / 'examples' / 'workspace'
 CORPUS = os.environ.get('ROCON_URI_CORPUS')
 needs_corpus = pytest.mark.skipif(not CORPUS, reason='ROCON_URI_CORPUS is not set')
 ROBOT = 'rocon:/turtlebot2/bob/noetic/focal'
@@ -157,7 +158,7 @@ def test_the_command_itself_says_nothing_twice_and_knows_all_rules(tmp_path):
     (tmp_path / 'rules.yaml').write_text('hardware_platform: {robot: [our_robot]}')
     path = '%s%s%s' % (tmp_path, os.pathsep, EXAMPLES)      # where another robot is registered
     done = subprocess.run(
-        [sys.executable, str(EXAMPLES.parents[1] / 'scripts' / 'rocon_uri'), 'apps',
+        [sys.executable, str(ROOT / 'scripts' / 'rocon_uri'), 'apps',
          '--robot', 'rocon:/our_robot', '--package-path', path],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
         env=dict(os.environ, ROCON_URI_RULES=str(tmp_path / 'rules.yaml')))

@@ -5,16 +5,16 @@ import json
 import os
 import shutil
 import subprocess
-from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 from made_packages import make_package
+from sources import ROOT
 
 from rocon_uri.cli import main
 from rocon_uri.spec_graph import Edge, Node, SpecGraph, dot_text
 
-EXAMPLES = Path(__file__).resolve().parents[1] / 'examples' / 'workspace'
+EXAMPLES = ROOT / 'examples' / 'workspace'
 CORPUS = os.environ.get('ROCON_URI_CORPUS')
 needs_corpus = pytest.mark.skipif(not CORPUS, reason='ROCON_URI_CORPUS is not set')
 needs_dot = pytest.mark.skipif(not shutil.which('dot'), reason='graphviz is not installed')

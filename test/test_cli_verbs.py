@@ -4,11 +4,11 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from sources import ROOT
 
 import rocon_uri
 from rocon_uri.cli import main
@@ -16,7 +16,7 @@ from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.grammar import TEXT_LIMIT, VOCABULARY_FIELDS, ebnf
 from rocon_uri.vocabulary import complete
 
-EXAMPLES = Path(__file__).resolve().parents[1] / 'examples'
+EXAMPLES = ROOT / 'examples'
 COMPLEX = 'rocon:/*/(a|b)*a(a|b){200}', 'rocon:/*/(a|b)*b(a|b){200}'
 URI_KEYS = ['text', 'file', 'line', 'uri', 'short', 'fields', 'read_with_one_slash']
 ERROR_KEYS = ['message', 'uri', 'field', 'value', 'span', 'suggestions', 'file', 'line']

@@ -6,11 +6,11 @@ import subprocess
 import sys
 
 import pytest
+from sources import ROOT, SOURCE
 
 from rocon_uri import RoconURIValueError, is_compatible
 from rocon_uri.cli import main
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 REQUESTS = ['rocon:/pr2', 'rocon:/*/bob_1*/noetic', 'rocon:/robot/[a-z]+_[0-9]*7']
 
 
@@ -52,7 +52,7 @@ def test_the_answers_are_those_of_a_loop_in_the_order_of_the_file(lines, file, c
 
 
 def test_a_pipe_gives_the_same_as_a_file(file):
-    command = [sys.executable, os.path.join(ROOT, 'scripts', 'rocon_uri'), 'match', REQUESTS[0]]
+    command = [sys.executable, str(ROOT / 'scripts' / 'rocon_uri'), 'match', REQUESTS[0]]
     from_file = subprocess.run([*command, '--in', file], stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE)
     with subprocess.Popen(['cat', file], stdout=subprocess.PIPE) as cat:
@@ -68,7 +68,7 @@ def stderr_on_a_terminal(before, file):
         before, file)
     ours, theirs = pty.openpty()
     with subprocess.Popen([sys.executable, '-c', program], stdout=subprocess.DEVNULL,
-                          stderr=theirs, env=dict(os.environ, PYTHONPATH=ROOT + '/src')):
+                          stderr=theirs, env=dict(os.environ, PYTHONPATH=str(SOURCE))):
         os.close(theirs)
         seen = b''
         while True:

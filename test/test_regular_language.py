@@ -494,6 +494,29 @@ def test_the_next_match_is_free_however_full_the_memo_is():
         assert found.work == before
 
 
+class CountedSet(int):
+    """A set that counts how many it is united with."""
+
+    united = 0
+
+    def __or__(self, other: int) -> CountedSet:
+        CountedSet.united += 1
+        return CountedSet(int(self) | int(other))
+
+    __ror__ = __or__
+
+
+@pytest.mark.parametrize('selected, united', [
+    ([], 0), ([0], 0), ([1023], 0), ([512], 0), ([0, 3], 2), ([1020, 1021, 1023], 3),
+    ([512, 513], 2), ([515, 516], 3), ([512, 513, 520, 521], 6)])
+def test_uniting_takes_no_step_for_what_comes_before_the_selected_sets(selected, united):
+    union_of = Unions([CountedSet(1 << index) for index in range(1024)])
+    selection = sum(1 << index for index in selected)
+    CountedSet.united = 0
+    assert union_of(selection) == selection
+    assert CountedSet.united == united
+
+
 def test_the_largest_language_takes_less_than_9_megabytes():
     rng = random.Random(9)
     tracemalloc.start()

@@ -11,12 +11,13 @@ from capabilities.specs.common import InvalidSpec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rocon_uri.yaml_source import YamlError, load
+from sources import ROOT
 from specs.examples import BAD, BEYOND_SCHEMAS, GOOD, ODD
 from test_specs_properties import FULL, LOADERS, mutants
 
 jsonschema = pytest.importorskip('jsonschema')
 
-SCHEMAS = Path(__file__).resolve().parents[1] / 'schemas'
+SCHEMAS = ROOT / 'schemas'
 FILES = {'interface': 'capability_interface.json', 'provider': 'capability_provider.json',
          'semantic_interface': 'semantic_capability_interface.json'}
 VALIDATORS = {kind: jsonschema.Draft7Validator(json.loads((SCHEMAS / name).read_text()))
