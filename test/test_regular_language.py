@@ -562,6 +562,9 @@ def test_work_is_one_a_derivative_and_one_for_every_four_positions_as_far_as_the
     assert found.work == sum(1 + (1 + read) // 4 for read in range(8))
     assert found.matches('aaaaaaaaa')
     assert found.work == sum(1 + (1 + read) // 4 for read in range(9))
+    before = found.work
+    assert not found.matches('b' * 255)
+    assert found.work == before + 1     # since no name starts with b, whatever comes then
 
 
 def test_threads_get_right_answers_from_one_language():
