@@ -29,8 +29,9 @@ def test_damaged_input_is_answered_as_documented(name):
 
 
 def target(check):
-    """A target whose inputs are lists with the numbers from 0 to 9 in some order, as text."""
-    return SimpleNamespace(check=check, make=lambda rng: rng.sample(list('0123456789'), 10))
+    """A target whose inputs are lists of digits."""
+    return SimpleNamespace(check=check, make=lambda rng: [
+        rng.choice('0123456789') for _ in range(rng.randrange(10))])
 
 
 def raise_if_seven_comes_first(numbers):
@@ -54,14 +55,21 @@ def take_memory(numbers):
 
 @pytest.mark.parametrize('check, message', [
     (raise_if_seven_comes_first, 'AssertionError: seven first'),
-    (die_of_seven, 'the process ended with -9'), (never_finish, 'TooSlow: more than 0.1 s'),
+    (never_finish, 'TooSlow: more than 0.1 s'),
     (take_memory, 'MemoryError')])
 def test_a_fault_is_shown_by_the_smallest_input(check, message, monkeypatch):
     monkeypatch.setattr(batch, 'SECONDS', 0.1)
     tried, fault = run_batch(target(check), 5, 1000)
     assert 0 < tried < 1000
-    assert fault.startswith("the smallest input that shows it:\n['7']\n")
+    assert fault.startswith("the input that shows it:\n['7']\n")
     assert message in fault
+
+
+def test_an_input_that_ends_the_process_is_shown_as_it_was_made():
+    tried, fault = run_batch(target(die_of_seven), 5, 1000)
+    assert 0 < tried < 1000
+    assert fault.startswith("the input that shows it:\n['7'")
+    assert fault.endswith('the process ended with -9')
 
 
 def test_no_fault_is_made_up():

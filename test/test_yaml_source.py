@@ -80,6 +80,7 @@ def error_of(content) -> str:
     ('! 12', 12),
     ('!<tag:yaml.org,2002:str> 12', '12'),
     ('%TAG !y! tag:yaml.org,2002:\n--- !y!str 12', '12'),
+    pytest.param('"%s"' % ('%TAG ' * 101), '%TAG ' * 101, id='no directives'),
     ('%YAML 1.1\n---\na: b\n...\n', {'a': 'b'}),
     ('{"a": [1, 2.5, null, true]}', {'a': [1, 2.5, None, True]}),
     ('{1: a, 2.5: b, ~: c, no: d}', {1: 'a', 2.5: 'b', None: 'c', False: 'd'}),
@@ -277,6 +278,7 @@ def test_data_can_be_pickled_and_copied_with_their_positions():
     ('x' * (MAX_SIZE + 1), 'f:1:1: larger than 1 MiB, which is all that is read'),
     (b'x' * (MAX_SIZE + 1), 'f:1:1: larger than 1 MiB, which is all that is read'),
     ('%TAG !a! x\n' * 101 + '--- a', 'f:1:1: more than 100 %TAG directives'),
+    ('%TAG !a! x\u2028' * 101 + '--- a', 'f:1:1: more than 100 %TAG directives'),
 ])
 def test_errors(content, expected):
     assert error_of(content) == expected

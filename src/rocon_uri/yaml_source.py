@@ -56,6 +56,7 @@ MAX_SIZE = 2 ** 20      # bytes of a file, characters of a text, and what aliase
 MAX_DEPTH = 100         # collections in one another
 _MAX_TAG_DIRECTIVES = 100   # libyaml compares each with all before it
 
+_tag_directives = re.compile('(?:^|[\r\n\x85\u2028\u2029])%TAG').findall
 _split_lines = re.compile('\r\n|[\r\n\x85\u2028\u2029]').split
 
 
@@ -280,7 +281,7 @@ def _text(content: Union[str, bytes], file_name: str) -> str:
             before = content[:error.start].decode(encoding, 'replace')
             raise YamlError('not %s text: %s' % (encoding.upper(), error.reason), file_name,
                             *end_position(before)) from error
-    if text.count('%TAG') > _MAX_TAG_DIRECTIVES:
+    if len(_tag_directives(text)) > _MAX_TAG_DIRECTIVES:
         raise YamlError('more than %d %%TAG directives' % _MAX_TAG_DIRECTIVES, file_name, 1, 1)
     return text[1:] if text.startswith('\ufeff') else text
 

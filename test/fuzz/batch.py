@@ -1,27 +1,25 @@
 """
-One batch of inputs for a target: made from a seed, tried in a process of its own, within bounds.
+One batch of inputs for a target: hypothesis makes them from a seed, in a process of its own.
 
-A target is a module with two functions: ``make`` takes a `random.Random` and returns an input, made
-of texts, bytes, numbers, tuples, lists and dicts; ``check`` takes one and raises what is wrong.
+A target is a module with two functions: ``make`` takes a `random.Random`, of which hypothesis
+decides what it answers, and returns an input; ``check`` takes one and raises what is wrong.
 """
 from __future__ import annotations
 
 import multiprocessing
-import random
 import resource
 import signal
-import time
+import tempfile
 import traceback
-from collections import namedtuple
+
+import hypothesis
+from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import strategies as st
 
 TARGETS = ('uri', 'name_pattern', 'spec_file', 'rapp_file', 'package_exports', 'message')
 
 SECONDS = 10            # of the processor, for one input
 MEMORY = 2 << 30        # bytes of addresses, for the whole process
-SHRINKING_SECONDS = 60
-
-#: What is wrong: a short text that is the same for the same fault, and a long one.
-Fault = namedtuple('Fault', 'kind text')
 
 
 class TooSlow(Exception):
@@ -30,7 +28,7 @@ class TooSlow(Exception):
 
 def run_batch(target, seed, inputs):
     """
-    Try some inputs, up to the first that shows a fault.
+    Try some inputs, up to the first that shows a fault, and look for a smaller one that does.
 
     :param target: the module
     :param int seed: the same one gives the same inputs
@@ -38,92 +36,51 @@ def run_batch(target, seed, inputs):
     :returns: (int, str): how many were tried, and the fault with the smallest input that shows it,
         '' for none
     """
-    def made(number):
-        return target.make(random.Random('%d %d' % (seed, number)))
-
-    tried, fault = attempt(target.check, map(made, range(inputs)))
-    if fault is None:
-        return tried, ''
-    smallest = shrunk(target.check, made(tried - 1), fault)
-    _, fault = attempt(target.check, [smallest])
-    return tried, 'the smallest input that shows it:\n%r\n%s' % (smallest, fault.text)
-
-
-def attempt(check, inputs):
-    """
-    Try inputs in a process of its own, so that whatever they do to it is found.
-
-    :returns: (int, `Fault`): how many were tried, and the fault of the last one or None
-    """
     context = multiprocessing.get_context('fork')   # the process has what is imported here
     tried = context.Value('q', 0, lock=False)
     receiver, sender = context.Pipe(duplex=False)
-    process = context.Process(target=_attempt, args=(check, inputs, tried, sender))
-    process.start()
-    sender.close()
-    try:
-        fault = receiver.recv()
-    except EOFError:
+    # what is tried is in a file, so that it is known whatever happens to the process
+    with tempfile.TemporaryFile('w+', encoding='ascii') as last:
+        process = context.Process(target=_run, args=(target, seed, inputs, tried, last, sender))
+        process.start()
+        sender.close()
+        try:
+            fault = receiver.recv()
+        except EOFError:
+            process.join()
+            fault = 'the process ended with %d' % process.exitcode
         process.join()
-        fault = Fault(str(process.exitcode), 'the process ended with %d' % process.exitcode)
-    process.join()
-    return tried.value, fault
+        last.seek(0)
+        return tried.value, fault and 'the input that shows it:\n%s\n%s' % (last.read(), fault)
 
 
-def _attempt(check, inputs, tried, sender):
+def _run(target, seed, inputs, tried, last, sender):
+    @hypothesis.seed(seed)
+    @settings(max_examples=inputs, deadline=None, database=None, report_multiple_bugs=False,
+              phases=[Phase.generate, Phase.shrink], suppress_health_check=list(HealthCheck))
+    @given(st.randoms(use_true_random=False))
+    def check_one(rng):
+        made = target.make(rng)
+        last.seek(0)
+        last.truncate()
+        last.write(ascii(made))
+        last.flush()
+        tried.value += 1
+        signal.setitimer(signal.ITIMER_PROF, SECONDS)   # a busy machine is no fault
+        try:
+            target.check(made)
+        finally:
+            signal.setitimer(signal.ITIMER_PROF, 0)
+
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     signal.signal(signal.SIGPROF, _stop)
     try:
-        for given in inputs:
-            tried.value += 1
-            signal.setitimer(signal.ITIMER_PROF, SECONDS)   # a busy machine is no fault
-            check(given)
-            signal.setitimer(signal.ITIMER_PROF, 0)
-    except Exception as error:      # whatever it is, it is a fault
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        place = traceback.extract_tb(error.__traceback__)[-1]
-        kind = type(error).__name__ if isinstance(error, (TooSlow, MemoryError)) else (
-            '%s in line %s' % (type(error).__name__, place.lineno))
-        sender.send(Fault(kind, traceback.format_exc()))
+        check_one()
+    except Exception:       # whatever it is, it is a fault
+        sender.send(traceback.format_exc())
     else:
-        sender.send(None)
+        sender.send('')
 
 
 def _stop(signal_number, frame):
     raise TooSlow('more than %s s' % SECONDS)
-
-
-def shrunk(check, given, fault):
-    """An input from which nothing can be left out without losing the fault."""
-    end = time.monotonic() + SHRINKING_SECONDS
-    shrinking = True
-    while shrinking:
-        shrinking = False
-        for smaller in smaller_ones(given):
-            found = attempt(check, [smaller])[1]
-            if found is not None and found.kind == fault.kind:
-                given, shrinking = smaller, True
-                break
-            if time.monotonic() > end:
-                return given
-    return given
-
-
-def smaller_ones(given):
-    """Inputs that have less in them, those with the least first."""
-    if isinstance(given, dict):
-        for key in given:
-            yield {other: given[other] for other in given if other != key}
-        for key in given:
-            for smaller in smaller_ones(given[key]):
-                yield {**given, key: smaller}
-    if isinstance(given, (str, bytes, list)):
-        step = len(given)
-        while step:
-            for start in range(0, len(given), step):
-                yield given[:start] + given[start + step:]
-            step //= 2
-    if isinstance(given, (list, tuple)):
-        for index, item in enumerate(given):
-            for smaller in smaller_ones(item):
-                yield given[:index] + type(given)([smaller]) + given[index + 1:]
