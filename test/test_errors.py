@@ -27,7 +27,7 @@ FAULTS = [
     ('roco', 'uri', 'roco', 'roco', "does not start with 'rocon:'"),
     ('rocon:/pr2 /bob', 'uri', ' ', ' ', 'white space (U+0020)'),
     ('rocon:/pr2/b\u2003b', 'uri', '\u2003', '\u2003', 'white space (U+2003)'),
-    ('rocon:/pr2/b\x07b', 'uri', '\x07', '\x07', 'control character (U+0007)'),
+    ('rocon:/pr2/b\x07b', 'uri', '\x07', '\x07', 'a rocon URI has no control characters (U+0007)'),
     ('rocon:/pr2\n', 'uri', '\n', '\n', 'white space (U+000A)'),
     ('rocon:/pr2/bob/ros/linux/x', 'uri', '/x', '/x', 'at most four fields'),
     ('rocon:/pr2/bob/ros/linux//', 'uri', '//', '//', 'at most four fields'),

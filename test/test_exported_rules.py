@@ -63,10 +63,6 @@ def warnings(caplog):
     return [record.getMessage() for record in caplog.records]
 
 
-needs_rospkg = pytest.mark.skipif(
-    subprocess.run([sys.executable, '-c', 'import rospkg'], stderr=subprocess.DEVNULL).returncode,
-    reason='rospkg is not installed')
-
 
 # Files
 
@@ -124,20 +120,17 @@ def test_a_fault_says_where_it_is(tmp_path, text, line, column, problem):
 
 # Packages
 
-@needs_rospkg
 def test_what_a_package_exports_is_found(workspace):
     make_package(workspace / 'stack' / 'ours', robots=RULES)
     assert robots(exported()) == ['bender']
 
 
-@needs_rospkg
 @pytest.mark.parametrize('rules', ['${prefix}/rules/robots.yaml', 'rules/robots.yaml'])
 def test_the_path_is_relative_to_the_package(workspace, rules):
     make_package(workspace / 'ours', exports='<rocon_uri rules="%s"/>' % rules, robots=RULES)
     assert robots(exported()) == ['bender']
 
 
-@needs_rospkg
 def test_a_package_exports_as_many_files_as_it_likes(workspace):
     exports = ''.join('<rocon_uri rules="${prefix}/rules/%s.yaml"/>' % name for name in 'ab')
     make_package(workspace / 'ours', exports=exports + '<rocon_uri/><other rules="x"/>',
@@ -145,7 +138,6 @@ def test_a_package_exports_as_many_files_as_it_likes(workspace):
     assert robots(exported()) == ['bender', 'bender_a', 'flexo']
 
 
-@needs_rospkg
 def test_a_package_hides_those_of_its_name_further_on(workspace, tmp_path, monkeypatch, caplog):
     make_package(workspace / 'ours', robots=RULES)
     make_package(tmp_path / 'underlay' / 'ours', robots=RULES.replace('bender', 'flexo'))
@@ -161,7 +153,6 @@ def test_a_package_hides_those_of_its_name_further_on(workspace, tmp_path, monke
     assert warnings(caplog) == []
 
 
-@needs_rospkg
 @pytest.mark.parametrize('marker', ['CATKIN_IGNORE', 'rospack_nosubdirs'])
 def test_packages_are_not_looked_for_where_ros_does_not_look(workspace, marker, caplog):
     make_package(workspace / 'marked' / 'ours', robots=RULES)
@@ -176,7 +167,6 @@ def test_packages_are_not_looked_for_where_ros_does_not_look(workspace, marker, 
     assert warnings(caplog) == []
 
 
-@needs_rospkg
 def test_links_in_a_circle_are_followed_once(workspace):
     make_package(workspace / 'z' / 'ours', robots=RULES)
     for name in 'abcdefgh':
@@ -185,7 +175,6 @@ def test_links_in_a_circle_are_followed_once(workspace):
     assert robots(exported()) == ['bender']
 
 
-@needs_rospkg
 def test_a_fault_costs_only_the_file_that_it_is_in(workspace, monkeypatch, caplog):
     exports = ''.join('<rocon_uri rules="${prefix}/rules/%s.yaml"/>' % name
                       for name in ['star', 'robots', 'missing', 'slash', 'syntax', 'twice', 'more'])
@@ -352,7 +341,6 @@ assert uri.short == str(uri) and parse(uri.short) == uri
 ''', ROCON_URI_RULES=rules)
 
 
-@needs_rospkg
 def test_a_package_on_the_package_path_is_found_by_parse(workspace):
     make_package(workspace / 'ours', robots=RULES)
     (workspace / 'broken').mkdir()
@@ -362,7 +350,13 @@ def test_a_package_on_the_package_path_is_found_by_parse(workspace):
         'rocon:/bender/*/*/* 1\n' % (workspace / 'broken' / 'package.xml'))
 
 
-def test_without_ros_there_are_the_rules_of_the_environment(rules, tmp_path):
+@pytest.mark.parametrize('found_by', ['ROCON_URI_RULES', 'ROS_PACKAGE_PATH'])
+def test_without_rospkg_there_are_the_rules_of_the_environment(found_by, workspace, tmp_path):
+    package = make_package(workspace / 'ours', robots=RULES)
+    if found_by == 'ROCON_URI_RULES':
+        environment = {'ROS_PACKAGE_PATH': '', found_by: str(package / 'rules/robots.yaml')}
+    else:
+        environment = {found_by: '/gone:%s' % workspace}
     (tmp_path / 'rospkg.py').write_text('raise ImportError\n')
     code = "import sys; sys.path.insert(0, %r); print(parse('rocon:/bender').short)" % str(tmp_path)
-    assert run(code, ROCON_URI_RULES=rules) == 'rocon:/bender\n'
+    assert run(code, **environment) == 'rocon:/bender\n'

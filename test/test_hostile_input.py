@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -35,6 +36,17 @@ launch: look.launch
 required_capabilities:
   - name: good/Camera
 '''
+
+
+@pytest.fixture(autouse=True)
+def whatever_waits_for_ever_fails():
+    def stop(signal_number, frame):
+        raise TimeoutError('this waits for ever')
+    earlier = signal.signal(signal.SIGALRM, stop)
+    signal.alarm(300)
+    yield
+    signal.alarm(0)
+    signal.signal(signal.SIGALRM, earlier)
 
 
 def rocon_uri(*arguments, prefix=(), ROS_PACKAGE_PATH=''):
@@ -71,7 +83,8 @@ def test_a_huge_uri_is_an_error_of_a_line(text, tmp_path):
     fleet.write_text('rocon:/pr2/bob\n%s\nrocon:/kobuki/alice\n' % text)
     done = rocon_uri('match', 'rocon:/robot', '--in', fleet)
     assert (done.returncode, done.stdout) == (2, 'rocon:/pr2/bob\nrocon:/kobuki/alice\n')
-    assert done.stderr.startswith('%s:2: a rocon URI has at most 65536 characters' % fleet)
+    assert done.stderr.startswith(
+        '%s:2: a rocon URI has at most 65536 characters, this one has more' % fleet)
     assert len(done.stderr) < 1000
 
 
@@ -153,7 +166,6 @@ AS_OTHERS_DO = [] if os.geteuid() else [
 @pytest.fixture
 def workspace(tmp_path):
     """A package with nothing wrong, to which others can be added."""
-    pytest.importorskip('rospkg', reason='match finds packages with it')
     add_package(tmp_path, 'good', {
         'capability_interface': 'Camera.yaml', 'capability_provider': 'camera.yaml',
         'rocon_app': 'look.rapp', 'rules': 'robots.yaml'},
@@ -318,20 +330,22 @@ def test_rules_with_a_value_that_is_none(workspace, rules, place, problem):
 
 # -- files that change while they are read --------------------------------------------------------
 
-def test_a_spec_that_changes_while_it_is_read_is_one_or_the_other_or_none(tmp_path):
+def test_a_spec_that_changes_while_it_is_read_is_one_or_the_other_or_refused(tmp_path):
     path = tmp_path / 'Camera.yaml'
     path.write_text(INTERFACE % 'Camera')
     texts = [INTERFACE % 'Camera', INTERFACE % 'Lift' + '# longer' * 20000, '', 'name: [',
              '\0' * 70000]
     found = set()
     with while_changing(path, texts):
-        for _ in range(500):
+        for tried in range(50000):
             try:
                 found.add(capability_interface_from_file_path(str(path)).name)
             except InvalidInterface as error:
                 assert error.file_name == str(path)
                 assert error.line >= 1
-    assert found <= {'Camera', 'Lift'}
+            if tried >= 500 and len(found) == 2:    # each is there whole from time to time
+                break
+    assert found == {'Camera', 'Lift'}
 
 
 def test_packages_that_change_while_they_are_checked(workspace):
@@ -341,6 +355,8 @@ def test_packages_that_change_while_they_are_checked(workspace):
         for _ in range(50):
             for finding in check_packages([str(workspace)]):
                 assert finding.file.endswith(('bad/peep.rapp', 'bad/package.xml'))
+            rapps, _ = rapps_from_package_index(package_index_from_package_path(str(workspace)))
+            assert 'good/look' in rapps
 
 
 def test_files_that_are_gone_since_the_packages_were_found(workspace):

@@ -2,11 +2,12 @@
 from __future__ import annotations
 
 import itertools
+import re
 
 import pytest
 
 from rocon_uri import RoconURIValueError, Vocabulary, is_compatible, parse, relation
-from rocon_uri.grammar import VOCABULARY_FIELDS, ebnf
+from rocon_uri.grammar import EBNF, VOCABULARY_FIELDS, ebnf
 from rocon_uri.vocabulary import RulesError, complete, completed, current
 
 
@@ -226,6 +227,14 @@ def test_the_grammar_is_shown_with_the_vocabulary_in_it():
     assert len(set(rules)) == len(rules)
     for symbol in ('platform', 'framework', 'system', 'rocon_uri', 'regex', 'count'):
         assert symbol in rules
+
+
+def test_every_symbol_of_the_grammar_has_one_rule():
+    bundled = Vocabulary.bundled()
+    for text in (EBNF, ebnf({name: bundled.field(name) for name in VOCABULARY_FIELDS})):
+        bare = re.sub(r'"[^"]*"|\?[^?]*\?|\(\*.*?\*\)', '', text)
+        defined = re.findall(r'(\w+) +=', bare)
+        assert sorted(defined) == sorted(set(re.findall(r'\w+', bare)))
 
 
 def test_a_long_rule_of_the_grammar_goes_on_below_its_equals_sign():

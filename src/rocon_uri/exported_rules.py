@@ -123,12 +123,8 @@ def _paths() -> Iterator[str]:
 def _exported_paths() -> Dict[str, List[str]]:
     """The files of rules by package; one that is found first hides those of its name."""
     exported: Dict[str, List[str]] = {}
-    try:
-        import rospkg       # not there without ROS
-    except ImportError:
-        return exported
     from xml.etree import ElementTree       # here, since it costs more than a known value may
-    for folder in _package_folders(rospkg.RosPack().get_ros_paths()):
+    for folder in _package_folders(_ros_paths()):
         manifest = os.path.join(folder, 'package.xml')
         # rospkg itself gives up at the first manifest that is no XML, and loads rosdep to read one.
         try:
@@ -140,6 +136,15 @@ def _exported_paths() -> Dict[str, List[str]]:
         exported.setdefault((package.findtext('name') or folder).strip(), [
             rules_path(folder, path) for path in rules if path])
     return exported
+
+
+def _ros_paths() -> List[str]:
+    """The folders with packages below them."""
+    try:
+        import rospkg       # not there without ROS; it knows what a distribution adds
+    except ImportError:
+        return [path for path in os.environ.get('ROS_PACKAGE_PATH', '').split(os.pathsep) if path]
+    return list(rospkg.RosPack().get_ros_paths())
 
 
 def _manifest(path: str) -> bytes:

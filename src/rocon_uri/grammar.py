@@ -22,7 +22,7 @@ ALTERNATIVES_LIMIT = 256    # alternatives of one field
 #: The fields whose values are registered, in the order in which a URI has them.
 VOCABULARY_FIELDS = ('hardware_platform', 'application_framework', 'operating_system')
 
-EBNF = '''\
+EBNF = r'''
 rocon_uri   = "rocon:" , [ "//" , [ concert_name ] ] , [ "/" , fields ] , [ "#" , [ rocon_app ] ] ;
 fields      = hardware_platform , [ "/" , name , [ "/" , application_framework ,
               [ "/" , operating_system , [ "/" ] ] ] ] ;
@@ -46,12 +46,16 @@ group       = ( "(" | "(?:" ) , branch , { "|" , branch } , ")" ;
 class       = "[" , [ "^" ] , item , { item } , "]" ;
 item        = letter | digit | "_" | range | shorthand ;
 range       = ? two digits, two lower-case or two upper-case letters in order, "-" between ? ;
-shorthand   = "\\d" | "\\D" | "\\w" | "\\W" ;
+shorthand   = "\d" | "\D" | "\w" | "\W" ;
 m           = ? a number from 0 to 255 ? ;
 n           = ? a number from m to 255 ? ;
 letter      = ? A to Z, a to z ? ;
 digit       = ? 0 to 9 ? ;
-'''
+
+platform    = "*" | ? a hardware_platform that is registered, or a group of them ? ;
+framework   = "*" | ? an application_framework, likewise ? ;
+system      = "*" | ? an operating_system, likewise ? ;
+'''.lstrip()
 
 #: Splits a text into concert name, slash, the four fields, a fifth and more, and the app; all of
 #: them raw, and None where they are left out. The slash is '' where the one that should stand
@@ -143,7 +147,8 @@ def ebnf(values: Mapping[str, Iterable[str]]) -> str:
     system      = "*" | "linux" ;
     """
     symbols = zip(('platform', 'framework', 'system'), VOCABULARY_FIELDS)
-    return EBNF + '\n' + ''.join(_choice(symbol, values[field]) for symbol, field in symbols)
+    rules, blank, _ = EBNF.rpartition('\n\n')
+    return rules + blank + ''.join(_choice(symbol, values[field]) for symbol, field in symbols)
 
 
 def _choice(symbol: str, values: Iterable[str]) -> str:

@@ -114,7 +114,7 @@ def _check_characters(text: str) -> None:
     index = grammar.stray_character(text)
     if index is not None:
         character = text[index]
-        kind = 'white space' if character.isspace() else 'a control character'
+        kind = 'white space' if character.isspace() else 'control characters'
         raise RoconURIValueError('a rocon URI has no %s (U+%04X)' % (kind, ord(character)), text,
                                  value=character, span=(index, index + 1))
 

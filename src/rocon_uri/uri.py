@@ -371,8 +371,8 @@ def _read_common(text: str, vocabulary: Vocabulary) -> Optional[RoconURI]:
 
 def _read(text: str, vocabulary: Vocabulary, strict: bool) -> RoconURI:
     if len(text) > grammar.TEXT_LIMIT:
-        raise RoconURIValueError('a rocon URI has at most %d characters, not %d'
-                                 % (grammar.TEXT_LIMIT, len(text)), text, value=text)
+        raise RoconURIValueError('a rocon URI has at most %d characters, this one has more'
+                                 % grammar.TEXT_LIMIT, text, value=text)
     parts, vocabulary, with_one_slash = take_apart(text, vocabulary, strict)
     return _assemble(lambda field, read: parts[field].read(read), vocabulary, with_one_slash)
 
