@@ -149,6 +149,21 @@ def test_what_is_exported_from_elsewhere_is_not_checked(tmp_path, monkeypatch):
     assert len(lines) == 2 and all('is outside the package' in line for line in lines)
 
 
+@pytest.mark.parametrize('tag', ['capability_interface', 'semantic_capability_interface',
+                                 'capability_provider', 'rocon_app', 'rules'])
+def test_nothing_is_shown_of_what_is_elsewhere(tmp_path, monkeypatch, tag):
+    (tmp_path / 'passwords').write_text('root:x:0:0:root\n- [')
+    (tmp_path / 'src').mkdir()
+    export = '<%s>../../passwords</%s>' % (tag, tag)
+    if tag == 'rules':
+        export = '<rocon_uri rules="../../passwords"/>'
+    folder = make_package(tmp_path / 'src', 'ours')
+    manifest = (folder / 'package.xml').read_text()
+    (folder / 'package.xml').write_text(manifest.replace('<export>', '<export>' + export))
+    lines = findings_in(tmp_path / 'src', monkeypatch)
+    assert len(lines) == 1 and 'is outside the package' in lines[0]
+
+
 def test_an_invalid_manifest_is_found_and_hides_no_other(tmp_path, monkeypatch):
     (make_package(tmp_path, 'bad') / 'package.xml').write_text('<package>\n<name>bad</nam>')
     make_package(tmp_path, 'ours', [('rocon_app', 'missing.rapp')])

@@ -81,7 +81,7 @@ def _is_in_one_of(path: str, folders: Collection[str]) -> bool:
     """Is this a file in one of the folders? What is missing is a fault of who names it."""
     if not os.path.isfile(path):
         return False
-    folder = os.path.dirname(path)
+    folder = os.path.dirname(os.path.normpath(path))
     while folder not in folders and folder != os.path.dirname(folder):
         folder = os.path.dirname(folder)
     return folder in folders
