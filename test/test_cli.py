@@ -209,10 +209,16 @@ def test_a_line_without_end_takes_no_memory():
     assert done.returncode == 2 and done.stderr.startswith('<stdin>:1: a rocon URI has at most ')
 
 
+def heed_interrupts():
+    """What a shell starts in the background ignores them, and so does all that this starts."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def test_interrupted():
     with subprocess.Popen([*COMMAND, 'match', 'rocon:/', '--in', '-'], stdin=subprocess.PIPE,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          env=environment(PYTHONUNBUFFERED='1')) as process:
+                          env=environment(PYTHONUNBUFFERED='1'),
+                          preexec_fn=heed_interrupts) as process:
         process.stdin.write(b'rocon:/pr2\n')
         process.stdin.flush()
         assert process.stdout.readline() == b'rocon:/pr2\n'     # so it is waiting for more

@@ -14,7 +14,7 @@ from fuzz import batch
 from fuzz.batch import run_batch
 
 INPUTS = {'uri': 400, 'name_pattern': 400, 'spec_file': 200, 'rapp_file': 60, 'package_exports': 80,
-          'message': 400}
+          'message': 200}
 
 
 @pytest.mark.parametrize('name', batch.TARGETS)
