@@ -63,7 +63,6 @@ def warnings(caplog):
     return [record.getMessage() for record in caplog.records]
 
 
-
 # Files
 
 def test_a_file_of_rules_is_yaml_or_json(tmp_path):
