@@ -5,9 +5,9 @@ import tracemalloc
 from measure import once
 
 from rocon_uri import PatternTooComplex, RoconURIValueError
-from rocon_uri.regular_language import Language
-from rocon_uri.regular_product import common_name, includes
-from rocon_uri.regular_syntax import parse
+from rocon_uri.regular.language import Language
+from rocon_uri.regular.product import common_name, includes
+from rocon_uri.regular.syntax import parse
 
 PATTERNS = ['(a|aa)+b', '(a*)*b', '(x+x+)+y', '(a|b)*a(a|b){20}', '(a|b)*a(a|b){200}',
             '([a-z]+)*[0-9]{200}', '(.*a.*b.*c)*d', '[a-z]*' * 42, '((a?){250}){250}', '(' * 255,

@@ -3,7 +3,7 @@ Change one module here and there, and see which of the changes its tests do not 
 
 Examples:
   /usr/bin/python3 test/mutate.py grammar
-  /usr/bin/python3 test/mutate.py regular_language
+  /usr/bin/python3 test/mutate.py regular/language
 
 What is changed is a copy of this tree, in build/mutation, by cosmic-ray, which is installed there
 from PyPI and needs Python 3.9. It takes up to an hour for a module. The changes that no test
@@ -29,11 +29,11 @@ TESTS = {
             'exported_rules', 'threads'],
     'compatibility': ['conformance', 'compatibility', 'import_cost', 'exported_rules'],
     'name_pattern': ['name_pattern', 'conformance', 'compatibility', 'import_cost'],
-    'regular_language': ['regular_walk', 'name_pattern', 'regular_language'],
-    'regular_product': ['name_pattern', 'compatibility', 'regular_language'],
-    'regular_syntax': ['name_pattern', 'conformance', 'regular_language'],
-    'regular_tree': ['name_pattern', 'compatibility', 'regular_language'],
-    'regular_walk': ['regular_walk', 'resource_index'],
+    'regular/language': ['regular_walk', 'name_pattern', 'regular_language'],
+    'regular/product': ['name_pattern', 'compatibility', 'regular_language'],
+    'regular/syntax': ['name_pattern', 'conformance', 'regular_language'],
+    'regular/tree': ['name_pattern', 'compatibility', 'regular_language'],
+    'regular/walk': ['regular_walk', 'resource_index'],
 }
 
 CONFIG = '''\

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rocon_uri import RoconURI, RoconURIValueError, explain, is_compatible, parse, relation
-from rocon_uri.yaml_source import load_file
+from rocon_uri.sources.yaml_source import load_file
 
 CASES = json.loads((Path(__file__).parent / 'conformance' / 'rocon_uri.json').read_text())
 

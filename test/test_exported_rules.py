@@ -11,7 +11,7 @@ from sources import SOURCE
 
 from rocon_uri import Vocabulary, is_compatible, parse
 from rocon_uri.exported_rules import read_rules, with_exported_rules
-from rocon_uri.yaml_source import YamlError
+from rocon_uri.sources.yaml_data import YamlError
 
 PACKAGE = '''\
 <package format="2">

@@ -24,8 +24,8 @@ from rocon_uri import RoconURI, RoconURIValueError, is_compatible, parse
 from rocon_uri.lint import check_packages
 from rocon_uri.messages import from_msg
 from rocon_uri.package_rules import vocabulary_from_package_index
-from rocon_uri.rapps import InvalidRapp, rapps_from_package_index, runnable
-from rocon_uri.yaml_source import YamlError
+from rocon_uri.apps.rapps import InvalidRapp, rapps_from_package_index, runnable
+from rocon_uri.sources.yaml_data import YamlError
 
 INTERFACE = 'name: %s\nspec_version: 1\nspec_type: interface\n'
 PROVIDER = ('name: camera\nspec_version: 1\nspec_type: provider\nimplements: good/Camera\n'

@@ -11,8 +11,8 @@ from sources import SOURCE
 ROS = {'rospy', 'roslib', 'rosgraph', 'rospkg', 'catkin_pkg', 'genpy', 'rosdep2', 'distro'}
 SLOW = {'json', 'logging', 'difflib', 'typing', 'platform', 'subprocess', 'argparse', 'inspect',
         'dataclasses', 'urllib', 'xml', 'pathlib', 'tempfile'}
-AUTOMATA = {'rocon_uri.regular_language', 'rocon_uri.regular_syntax', 'rocon_uri.regular_tree',
-            'rocon_uri.regular_product'}
+AUTOMATA = {'rocon_uri.regular.language', 'rocon_uri.regular.syntax', 'rocon_uri.regular.tree',
+            'rocon_uri.regular.product'}
 
 
 def loaded_by(code):

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from made_packages import make_package
 from sources import ROOT
 
-from rocon_uri.exceptions import quoted_path
+from rocon_uri.sources.wording import quoted_path
 from rocon_uri.lint import ERROR, WARNING, Finding, check_packages
 
 CORPUS = os.environ.get('ROCON_URI_CORPUS')

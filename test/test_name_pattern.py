@@ -14,10 +14,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rocon_uri import regular_product
+from rocon_uri.regular import product as regular_product
 from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
 from rocon_uri.name_pattern import ANY, Glob, Literal, RegularExpression, read
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.sources.ros_names import is_legal_base_name
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 with open(os.path.join(HERE, 'conformance', 'rocon_uri.json'), encoding='utf-8') as stream:
@@ -240,7 +240,7 @@ def test_literals_and_globs_need_no_automata():
         'assert not bob.intersects(bobs) and not bob.includes(bobs) and not bobs.includes(bob)',
         "assert not [name for name in sys.modules if 'regular' in name]",
         "assert read('bob+').matches('bobb')",
-        "assert 'rocon_uri.regular_language' in sys.modules"])
+        "assert 'rocon_uri.regular.language' in sys.modules"])
     subprocess.run([sys.executable, '-c', code], check=True,
                    env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)))
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from capabilities.discovery import (
     package_index_from_package_path, spec_file_index_from_package_index,
     spec_index_from_spec_file_index)
-from capabilities.faults import Fault, FaultKind
-from capabilities.providers import (
+from capabilities.planning.faults import Fault, FaultKind
+from capabilities.planning.providers import (
     StartPlan, choose_provider, find_cycles, plan_for_capabilities, plan_for_provider)
 from capabilities.spec_index import SpecIndex
 from capabilities.specs.interface import CapabilityInterface

@@ -15,16 +15,10 @@ from capabilities.discovery import (
     spec_file_index_from_package_index,
     spec_index_from_spec_file_index,
 )
-from capabilities.faults import FaultKind
+from capabilities.planning.faults import FaultKind
 from rocon_uri import RoconURIValueError, Vocabulary, parse
-from rocon_uri.rapps import (
-    InvalidRapp,
-    ReasonKind,
-    rapp_from_string,
-    rapps_from_package_index,
-    runnable,
-    with_inheritance,
-)
+from rocon_uri.apps.rapps import (
+    InvalidRapp, ReasonKind, rapp_from_string, rapps_from_package_index, runnable, with_inheritance)
 
 CORPUS = os.environ.get('ROCON_URI_CORPUS')
 needs_corpus = pytest.mark.skipif(not CORPUS, reason='ROCON_URI_CORPUS is not set')

@@ -20,12 +20,12 @@ from fuzz.name_pattern import is_easy_for_re
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from rocon_uri import regular_language
+from rocon_uri.regular import language as regular_language
 from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
-from rocon_uri.regular_language import Language, Unions
-from rocon_uri.regular_product import WORK_LIMIT, Product, common_name, difference, includes
-from rocon_uri.regular_syntax import COUNT_LIMIT, DEPTH_LIMIT, SIZE_LIMIT, parse
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.regular.language import Language, Unions
+from rocon_uri.regular.product import WORK_LIMIT, Product, common_name, difference, includes
+from rocon_uri.regular.syntax import COUNT_LIMIT, DEPTH_LIMIT, SIZE_LIMIT, parse
+from rocon_uri.sources.ros_names import is_legal_base_name
 
 PATTERNS = 300              # patterns that are compared with re, and names that each is tried on
 NAMES_PER_PATTERN = 100

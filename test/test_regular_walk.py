@@ -3,7 +3,8 @@ import itertools
 
 import pytest
 
-from rocon_uri import name_pattern, regular_walk
+from rocon_uri import name_pattern
+from rocon_uri.regular import walk as regular_walk
 
 NAMES = sorted(
     [first + ''.join(rest) for first in 'abz' for length in range(6)

@@ -11,7 +11,7 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from rocon_uri import (PatternTooComplex, ResourceIndex, RoconURI, RoconURIValueError, Vocabulary,
                        is_compatible, parse)
-from rocon_uri import regular_walk
+from rocon_uri.regular import walk as regular_walk
 from rocon_uri.vocabulary import complete
 
 FLEET = ['rocon:/pr2/bob/noetic/focal', 'rocon:/kobuki/bob_1/noetic', 'rocon:/pr2/bob_2/indigo',

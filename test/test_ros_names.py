@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rocon_uri.ros_names import is_legal_base_name, is_legal_name, is_legal_resource_name
+from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name, is_legal_resource_name
 
 NAMES = [
     # name              base   resource  graph

@@ -9,7 +9,7 @@ import pytest
 from sources import SOURCE
 
 import rocon_uri.vocabulary
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.sources.ros_names import is_legal_base_name
 
 RULES = Path(rocon_uri.vocabulary.__file__).parent / 'rules'
 FIELDS = ['hardware_platform', 'application_framework', 'operating_system']

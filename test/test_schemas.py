@@ -10,7 +10,8 @@ import yaml
 from capabilities.specs.common import InvalidSpec
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from rocon_uri.yaml_source import YamlError, load
+from rocon_uri.sources.yaml_data import YamlError
+from rocon_uri.sources.yaml_source import load
 from sources import ROOT
 from specs.examples import BAD, BEYOND_SCHEMAS, GOOD, ODD
 from test_specs_properties import FULL, LOADERS, mutants

@@ -12,7 +12,8 @@ import pytest
 from capabilities.specs import interface, provider, semantic_interface
 from capabilities.specs.common import (
     InvalidSpec, SpecName, SpecWarning, split_spec_name, validate_spec_name)
-from rocon_uri.yaml_source import YamlMapping, load
+from rocon_uri.sources.yaml_data import YamlMapping
+from rocon_uri.sources.yaml_source import load
 from sources import ROOT
 from specs.examples import BAD, BEYOND_SCHEMAS, GOOD, INTERFACE, ODD
 

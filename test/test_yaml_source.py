@@ -17,9 +17,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sources import ROOT, SOURCE
 
-from rocon_uri.yaml_source import (
-    MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, load, load_file, located,
-    read_file)
+from rocon_uri.sources.located import located
+from rocon_uri.sources.yaml_data import MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence
+from rocon_uri.sources.yaml_source import load, load_file, read_file
 
 CAMERA = str(ROOT / 'test/unit/specs/interfaces/RGBCamera.yaml')
 

@@ -32,7 +32,10 @@ from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import capability_interface_from_file_path
 from capabilities.specs.provider import capability_provider_from_file_path
 from capabilities.specs.semantic_interface import semantic_capability_interface_from_file_path
-from rocon_uri.yaml_source import MAX_SIZE, located, quoted, quoted_path, read_file
+from rocon_uri.sources.located import located
+from rocon_uri.sources.wording import quoted, quoted_path
+from rocon_uri.sources.yaml_data import MAX_SIZE
+from rocon_uri.sources.yaml_source import read_file
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -11,8 +11,9 @@ It is usually made by `capabilities.discovery.spec_index_from_spec_file_index`.
 from __future__ import annotations
 
 from capabilities.specs.common import InvalidSpec
-from rocon_uri.yaml_source import (
-    YamlMapping, did_you_mean, located, near_misses, quoted, quoted_path)
+from rocon_uri.sources.located import located
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted, quoted_path
+from rocon_uri.sources.yaml_data import YamlMapping
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -6,89 +6,13 @@ made of are attributes beside it.
 """
 from __future__ import annotations
 
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Callable, Iterable, List, Optional, Tuple
 
-__all__ = ['PatternTooComplex', 'RoconURIValueError', 'did_you_mean', 'near_misses',
-           'printable', 'quoted', 'quoted_path']
-
-_QUOTED_LENGTH = 80     # characters of the offending text that a line shows
-_NEAR_LENGTH = 64       # a longer text is nobody's typing error; bounds the cost of the search
-
-
-def quoted(text: str) -> str:
-    """
-    The text as an error shows it: in single quotes, on one line, shortened if it is long.
-
-    :param str text: anything
-    :returns: str, printable and at most about 80 characters of the text
-
-    >>> print(quoted('a' * 100 + chr(10)), quoted(chr(10)))
-    'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa...' '\\n'
-    """
-    if len(text) > _QUOTED_LENGTH:
-        text = text[:_QUOTED_LENGTH - 3] + '...'
-    return "'%s'" % printable(text)
-
-
-def quoted_path(path: str) -> str:
-    """
-    The path of a file as an error shows it: in single quotes, on one line, and whole.
-
-    :param str path: anything; as long as the system lets a path be
-    :returns: str, printable
-
-    >>> print(quoted_path('/home' + '/bob' * 20)[-9:])
-    /bob/bob'
-    """
-    return "'%s'" % printable(path)
-
-
-def printable(text: str) -> str:
-    """
-    The text on one line, with what cannot be shown there escaped.
-
-    :param str text: anything
-    :returns: str
-
-    >>> print(printable('a' + chr(10) + 'b'))
-    a\\nb
-    """
-    return ''.join(c if c.isprintable() else repr(c)[1:-1] for c in text)
-
-
-def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
-    """
-    The candidates that somebody may have meant by this text, the likeliest first.
-
-    :param str text: what was written
-    :param candidates: iterable of str, what could have been written
-    :returns: list of at most three str
-
-    >>> near_misses('turtelbot2', ['kobuki', 'turtlebot', 'turtlebot2'])
-    ['turtlebot2', 'turtlebot']
-    """
-    if len(text) > _NEAR_LENGTH:
-        return []
-    import difflib      # here, since only an error that is looked at needs it
-    by_lower = {candidate.lower(): candidate for candidate in sorted(candidates)}
-    found = difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.7)
-    return [by_lower[name] for name in found]
-
-
-def did_you_mean(suggestions: Iterable[str]) -> str:
-    """
-    The end of an error that knows what was probably meant.
-
-    :param suggestions: iterable of str, the likeliest first
-    :returns: str, empty if there are none
-
-    >>> did_you_mean(['a_package/RGBCamera'])
-    " (did you mean 'a_package/RGBCamera'?)"
-    """
-    meant = ' or '.join(map(quoted, suggestions))
-    return ' (did you mean %s?)' % meant if meant else ''
+__all__ = ['PatternTooComplex', 'RoconURIValueError']
 
 
 class RoconURIValueError(ValueError):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import os
 
-from rocon_uri.exceptions import quoted
+from rocon_uri.sources.wording import quoted
 from rocon_uri.field_vocabulary import RulesError
 from rocon_uri.vocabulary import Vocabulary
 
@@ -34,7 +34,8 @@ def read_rules(vocabulary: Vocabulary, path: str) -> Vocabulary:
     :raises YamlError: `rocon_uri.yaml_source.YamlError`, if there is a fault in it; says where
     :raises OSError: if it cannot be read
     """
-    from rocon_uri.yaml_source import YamlError, load_file      # loads yaml
+    from rocon_uri.sources.yaml_data import YamlError      # loads yaml
+    from rocon_uri.sources.yaml_source import load_file      # loads yaml
     rules = load_file(path)
     _refuse_repeated_keys(rules, path)
     try:
@@ -78,7 +79,7 @@ def rules_path(folder: str, rules: str) -> str:
 
 def _refuse_repeated_keys(rules: Any, path: str) -> None:
     """One of the two would be lost."""
-    from rocon_uri.yaml_source import YamlError, YamlMapping
+    from rocon_uri.sources.yaml_data import YamlError, YamlMapping
     if isinstance(rules, YamlMapping):
         for key, _, (line, column) in rules.repeated:
             raise YamlError('%s is there twice' % quoted(str(key)), path, line, column)
@@ -149,7 +150,8 @@ def _ros_paths() -> List[str]:
 
 def _manifest(path: str) -> bytes:
     """The content of a package.xml; OSError or ValueError for what is not read, as a FIFO."""
-    from rocon_uri.yaml_source import MAX_SIZE, read_file       # which a known value does not need
+    from rocon_uri.sources.yaml_data import MAX_SIZE       # which a known value does not need
+    from rocon_uri.sources.yaml_source import read_file       # which a known value does not need
     content = read_file(path)
     if len(content) > MAX_SIZE:
         raise ValueError('larger than 1 MiB, which is all that is read')

@@ -6,9 +6,10 @@ One field of a rocon URI: a set of values, or of names.
 from __future__ import annotations
 
 from rocon_uri import name_pattern
-from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.sources.wording import quoted
 from rocon_uri.grammar import ALTERNATIVES_LIMIT, NAME_LIMIT
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.sources.ros_names import is_legal_base_name
 from rocon_uri.vocabulary import Vocabulary, completed
 
 TYPE_CHECKING = False

@@ -5,9 +5,9 @@ A group stands for its members, at every depth.
 """
 from __future__ import annotations
 
-from rocon_uri.exceptions import quoted
+from rocon_uri.sources.wording import quoted
 from rocon_uri.grammar import NAME_LIMIT
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.sources.ros_names import is_legal_base_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -23,15 +23,16 @@ from __future__ import annotations
 
 import re
 
-from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.sources.wording import quoted
 from rocon_uri.grammar import NAME_LIMIT
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.sources.ros_names import is_legal_base_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Callable, Iterable, List, Optional, Tuple
-    from rocon_uri.regular_language import Language
-    from rocon_uri.regular_tree import Node
+    from rocon_uri.regular.language import Language
+    from rocon_uri.regular.tree import Node
 
 __all__ = ['ANY', 'Glob', 'Literal', 'NamePattern', 'RegularExpression', 'read']
 
@@ -176,7 +177,7 @@ class NamePattern:
             return self.matches(other.literal)
         if self.text == other.text:
             return True
-        from rocon_uri import regular_product   # which only patterns need
+        from rocon_uri.regular import product as regular_product   # which only patterns need
         return regular_product.includes(self._language(), other._language())
 
     def example(self, other: Optional[NamePattern] = None) -> Optional[str]:
@@ -197,15 +198,15 @@ class NamePattern:
         return self._shared_name(other)
 
     def _shared_name(self, other: NamePattern) -> Optional[str]:
-        from rocon_uri import regular_product   # which only patterns need
+        from rocon_uri.regular import product as regular_product   # which only patterns need
         return regular_product.common_name(self._language(), other._language())
 
     def _tree(self, text: str) -> Node:
-        from rocon_uri import regular_tree      # which only patterns need
+        from rocon_uri.regular import tree as regular_tree      # which only patterns need
         return regular_tree.glob(text)
 
     def _language(self) -> Language:
-        from rocon_uri.regular_language import language     # which only patterns need
+        from rocon_uri.regular.language import language     # which only patterns need
         return language(self.text, self._tree)
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -307,7 +308,7 @@ class RegularExpression(NamePattern):
     _remembered: Callable[[], Optional[Language]]
 
     def __init__(self, text: str) -> None:
-        from rocon_uri.regular_tree import literal_ends     # which only patterns need
+        from rocon_uri.regular.tree import literal_ends     # which only patterns need
         super().__init__(text, *literal_ends(self._tree(text)))
         object.__setattr__(self, '_remembered', _nothing)
 
@@ -318,11 +319,11 @@ class RegularExpression(NamePattern):
         return map(self._language().matches, names)
 
     def matches_in_order(self) -> Callable[[List[str]], Iterable[bool]]:
-        from rocon_uri.regular_walk import Walk     # which only many names need
+        from rocon_uri.regular.walk import Walk     # which only many names need
         return Walk(self._language()).matches
 
     def _tree(self, text: str) -> Node:
-        from rocon_uri.regular_syntax import parse      # which only patterns need
+        from rocon_uri.regular.syntax import parse      # which only patterns need
         return parse(text)
 
     def _language(self) -> Language:

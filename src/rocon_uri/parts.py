@@ -7,8 +7,9 @@ not a concert called turtlebot2, and what makes the whole text illegal.
 from __future__ import annotations
 
 from rocon_uri import grammar
-from rocon_uri.exceptions import RoconURIValueError, quoted
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.ros_names import is_legal_base_name
 from rocon_uri.vocabulary import Vocabulary, completed
 
 TYPE_CHECKING = False

@@ -9,7 +9,8 @@ from __future__ import annotations
 import os
 import re
 
-from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.sources.wording import quoted
 from rocon_uri.grammar import NAME_LIMIT
 from rocon_uri.vocabulary import complete, current
 

@@ -12,7 +12,8 @@ from collections.abc import Mapping, MutableMapping
 from itertools import chain
 
 from rocon_uri.compatibility import is_compatible
-from rocon_uri.exceptions import PatternTooComplex, quoted
+from rocon_uri.exceptions import PatternTooComplex
+from rocon_uri.sources.wording import quoted
 from rocon_uri.field import UnregisteredValue
 from rocon_uri.name_index import NameIndex, NameRequest
 from rocon_uri.uri import RoconURI, aligned, parse, with_any_name

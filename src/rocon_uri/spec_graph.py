@@ -13,7 +13,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import List, Mapping
     from capabilities.spec_index import SpecIndex
-    from rocon_uri.rapp import Rapp
+    from rocon_uri.apps.rapp import Rapp
 
 __all__ = ['Edge', 'Node', 'SpecGraph', 'dot_text', 'spec_graph']
 

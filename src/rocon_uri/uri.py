@@ -9,7 +9,8 @@ from functools import partial
 from operator import attrgetter
 
 from rocon_uri import grammar, name_pattern
-from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.sources.wording import quoted
 from rocon_uri.field import Field, NameField, UnregisteredValue, ValuesField, read_name, read_values
 from rocon_uri.grammar import is_literal
 from rocon_uri.parts import read_concert_name, read_rocon_app, take_apart

@@ -11,7 +11,7 @@ import itertools
 import os
 from _thread import RLock       # as functools does: threading takes longer than parsing
 
-from rocon_uri.exceptions import quoted
+from rocon_uri.sources.wording import quoted
 from rocon_uri.field_vocabulary import FieldVocabulary, RulesError, members
 from rocon_uri.grammar import VOCABULARY_FIELDS
 

@@ -16,7 +16,7 @@ from rocon_uri import RoconURIValueError, is_compatible, parse
 from rocon_uri.grammar import VOCABULARY_FIELDS
 from rocon_uri.messages import from_msg, to_msg
 from rocon_uri.name_pattern import read
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.sources.ros_names import is_legal_base_name
 
 logging.getLogger('rosout').setLevel(logging.CRITICAL)     # bytes that are no UTF-8 are logged
 

@@ -11,7 +11,7 @@ from fuzz.damage import damaged
 from rocon_uri import PatternTooComplex, RoconURIValueError
 from rocon_uri.grammar import NAME_LIMIT
 from rocon_uri.name_pattern import read
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.sources.ros_names import is_legal_base_name
 
 GOOD = ['*', 'bob', 'bob_7', 'bob_*', '*_left', 'r*_*', '*a*b*', 'a*a', 'ab*ba', 'dud*', '.*',
         '^bob$', 'bob[0-9]+', '(bob|alice)_\\d{2}', 'bob?[0-9]', 'a(|b)c', '^b[^a-f_]{2,}$',

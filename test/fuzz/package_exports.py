@@ -18,8 +18,8 @@ from made_packages import PACKAGE_XML, make_package
 from rocon_uri.lint import ERROR, check_package_index
 from rocon_uri.lint.checked_file import is_inside
 from rocon_uri.package_rules import vocabulary_from_package_index
-from rocon_uri.rapps import InvalidRapp, rapps_from_package_index
-from rocon_uri.yaml_source import YamlError
+from rocon_uri.apps.rapps import InvalidRapp, rapps_from_package_index
+from rocon_uri.sources.yaml_data import YamlError
 
 logging.getLogger('capabilities').setLevel(logging.CRITICAL)
 logging.getLogger('catkin_pkg').setLevel(logging.CRITICAL)

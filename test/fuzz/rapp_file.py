@@ -15,8 +15,8 @@ from made_packages import make_package
 
 from rocon_uri import RoconURIValueError, is_compatible
 from rocon_uri.lint import ERROR, check_package_index
-from rocon_uri.rapps import InvalidRapp, rapp_from_string, rapps_from_package_index, runnable
-from rocon_uri.yaml_source import YamlMapping
+from rocon_uri.apps.rapps import InvalidRapp, rapp_from_string, rapps_from_package_index, runnable
+from rocon_uri.sources.yaml_data import YamlMapping
 
 logging.getLogger('capabilities').setLevel(logging.CRITICAL)
 

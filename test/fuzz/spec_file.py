@@ -20,7 +20,8 @@ from capabilities.specs.semantic_interface import (
 from fuzz.damage import damaged, damaged_tree, files
 from specs.examples import GOOD as EXAMPLES
 
-from rocon_uri.yaml_source import YamlError, load
+from rocon_uri.sources.yaml_data import YamlError
+from rocon_uri.sources.yaml_source import load
 
 logging.getLogger('capabilities').setLevel(logging.CRITICAL)
 

@@ -13,7 +13,7 @@ from rocon_uri import (
     PatternTooComplex, Relation, RoconURIValueError, Vocabulary, explain, is_compatible,
     name_pattern, parse, relation)
 from rocon_uri.grammar import VOCABULARY_FIELDS, is_rocon_app
-from rocon_uri.ros_names import is_legal_base_name
+from rocon_uri.sources.ros_names import is_legal_base_name
 from rocon_uri.vocabulary import complete
 
 CASES = json.loads((ROOT / 'test/conformance/rocon_uri.json').read_text())

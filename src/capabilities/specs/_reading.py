@@ -6,9 +6,10 @@ from __future__ import annotations
 import re
 
 from capabilities.specs.common import SpecName, SpecWarning, shown
-from rocon_uri.ros_names import is_legal_base_name
-from rocon_uri.yaml_source import (
-    MAX_SIZE, YamlError, YamlMapping, YamlSequence, did_you_mean, load, load_file, near_misses)
+from rocon_uri.sources.ros_names import is_legal_base_name
+from rocon_uri.sources.wording import did_you_mean, near_misses
+from rocon_uri.sources.yaml_data import MAX_SIZE, YamlError, YamlMapping, YamlSequence
+from rocon_uri.sources.yaml_source import load, load_file
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

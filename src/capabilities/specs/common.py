@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections import namedtuple
 
-from rocon_uri.ros_names import is_legal_base_name
-from rocon_uri.yaml_source import located, quoted
+from rocon_uri.sources.ros_names import is_legal_base_name
+from rocon_uri.sources.located import located
+from rocon_uri.sources.wording import quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

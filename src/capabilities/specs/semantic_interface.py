@@ -23,7 +23,7 @@ from capabilities.specs._reading import (
 from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import CapabilityInterface, InterfaceElement
 from capabilities.specs.remappings import RemappingSpec, read_remappings
-from rocon_uri.yaml_source import did_you_mean, near_misses, quoted
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -28,7 +28,8 @@ from rocon_uri.cli.given import GivenURI
 from rocon_uri.cli.packages import (
     PackageReport, Packages, add_package_path, escape_unencodable, package_path, printable,
     shortened)
-from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.sources.wording import quoted
 from rocon_uri.platform import (
     default_robot_name, default_robot_type, generate_platform_rocon_uri)
 from rocon_uri.uri import parse
@@ -37,7 +38,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
     from typing import Any, Dict, List, Optional
-    from rocon_uri.runnable import Reason, Verdict
+    from rocon_uri.apps.runnable import Reason, Verdict
     from rocon_uri.vocabulary import Vocabulary
 
 __all__ = ['add_arguments', 'main']
@@ -65,7 +66,7 @@ def main(args: argparse.Namespace) -> int:
     defaults = _read_defaults(args.defaults, report)
     if robot is None or defaults is None:
         return report.status
-    from rocon_uri.rapps import runnable    # here, since it loads YAML
+    from rocon_uri.apps.rapps import runnable    # here, since it loads YAML
     verdicts = [runnable(rapp, robot.uri, packages.spec_index, defaults)
                 for rapp in packages.rapps.values()]
     if args.json:
@@ -97,7 +98,8 @@ def _read_defaults(path: Optional[str], report: PackageReport) -> Optional[Dict[
     """The default providers by interface; None if the file is bad, which is reported."""
     if path is None:
         return {}
-    from rocon_uri.yaml_source import YamlError, YamlMapping, load_file     # loads YAML
+    from rocon_uri.sources.yaml_data import YamlError, YamlMapping     # loads YAML
+    from rocon_uri.sources.yaml_source import load_file     # loads YAML
     try:
         source = load_file(path)
         if isinstance(source, YamlMapping) and isinstance(source.get('defaults'), YamlMapping):

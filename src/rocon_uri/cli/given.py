@@ -6,7 +6,8 @@ import sys
 
 from rocon_uri.cli.lines import read_lines
 from rocon_uri.cli.progress import beside_progress
-from rocon_uri.exceptions import RoconURIValueError, quoted, quoted_path
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.sources.wording import quoted, quoted_path
 from rocon_uri.uri import parse
 
 TYPE_CHECKING = False

@@ -26,7 +26,8 @@ from itertools import chain
 from rocon_uri.cli.display import painter
 from rocon_uri.cli.given import Report, say
 from rocon_uri.cli.progress import beside_progress
-from rocon_uri.exceptions import PatternTooComplex, quoted
+from rocon_uri.exceptions import PatternTooComplex
+from rocon_uri.sources.wording import quoted
 from rocon_uri.resource_index import ResourceIndex
 
 TYPE_CHECKING = False

@@ -5,7 +5,7 @@ import os
 import sys
 
 from rocon_uri.cli.given import Report, say
-from rocon_uri.exceptions import quoted_path
+from rocon_uri.sources.wording import quoted_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ class Packages:
         # here, since they load catkin_pkg and YAML, and a verb can be asked for help without
         from capabilities import discovery
         from rocon_uri.package_rules import vocabulary_from_package_index
-        from rocon_uri.rapps import rapps_from_package_index
+        from rocon_uri.apps.rapps import rapps_from_package_index
         quiet_loggers()
         faults: List[Any] = []
         self.by_name: Dict[str, Any] = discovery.package_index_from_package_path(paths, faults)

@@ -19,7 +19,8 @@ from rocon_uri.lint.manifest import check_exports
 from rocon_uri.lint.rapp_files import check_rapp
 from rocon_uri.lint.spec_files import check_spec
 from rocon_uri.lint.surroundings import Surroundings
-from rocon_uri.yaml_source import YamlError, did_you_mean
+from rocon_uri.sources.wording import did_you_mean
+from rocon_uri.sources.yaml_data import YamlError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

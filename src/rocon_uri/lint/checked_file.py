@@ -4,11 +4,14 @@ from __future__ import annotations
 import os
 import re
 
-from rocon_uri.exceptions import RoconURIValueError, near_misses, quoted
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.sources.wording import near_misses, quoted
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
-from rocon_uri.ros_names import is_legal_base_name, is_legal_name
+from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name
 from rocon_uri.uri import parse
-from rocon_uri.yaml_source import YamlError, did_you_mean, load_file, read_file
+from rocon_uri.sources.wording import did_you_mean
+from rocon_uri.sources.yaml_data import YamlError
+from rocon_uri.sources.yaml_source import load_file, read_file
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

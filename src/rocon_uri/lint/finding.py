@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from collections import namedtuple
 
-from rocon_uri.yaml_source import located
+from rocon_uri.sources.located import located
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import os
 
-from rocon_uri.exceptions import near_misses, quoted
+from rocon_uri.sources.wording import near_misses, quoted
 from rocon_uri.lint.checked_file import CheckedFile
-from rocon_uri.yaml_source import YamlMapping, YamlSequence, did_you_mean
+from rocon_uri.sources.wording import did_you_mean
+from rocon_uri.sources.yaml_data import YamlMapping, YamlSequence
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ from collections import namedtuple
 from xml.parsers.expat import ExpatError
 
 from capabilities.discovery import EXPORTS
-from rocon_uri.exceptions import quoted
+from rocon_uri.sources.wording import quoted
 from rocon_uri.lint.checked_file import CheckedFile
-from rocon_uri.yaml_source import read_file
+from rocon_uri.sources.yaml_source import read_file
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

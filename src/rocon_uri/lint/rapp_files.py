@@ -3,19 +3,19 @@ from __future__ import annotations
 
 import os
 
-from rocon_uri.exceptions import quoted
+from rocon_uri.sources.wording import quoted
 from rocon_uri.grammar import is_rocon_app
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import ERROR, WARNING
-from rocon_uri.rapp import GROUPS_OF_REMAPPINGS, KEYS, TYPES_OF_REMAPPINGS
-from rocon_uri.yaml_source import YamlMapping, YamlSequence
+from rocon_uri.apps.rapp import GROUPS_OF_REMAPPINGS, KEYS, TYPES_OF_REMAPPINGS
+from rocon_uri.sources.yaml_data import YamlMapping, YamlSequence
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, List
     from rocon_uri.lint.finding import Finding
     from rocon_uri.lint.surroundings import Surroundings
-    from rocon_uri.rapp import Rapp
+    from rocon_uri.apps.rapp import Rapp
 
 __all__ = ['check_rapp']
 

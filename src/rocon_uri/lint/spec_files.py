@@ -4,9 +4,9 @@ from __future__ import annotations
 import os
 
 from capabilities.specs.common import InvalidSpec
-from rocon_uri.exceptions import quoted
+from rocon_uri.sources.wording import quoted
 from rocon_uri.lint.checked_file import NOWHERE, CheckedFile
-from rocon_uri.yaml_source import YamlMapping, YamlSequence
+from rocon_uri.sources.yaml_data import YamlMapping, YamlSequence
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

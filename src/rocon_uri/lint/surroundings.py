@@ -3,10 +3,10 @@ from __future__ import annotations
 
 from capabilities.discovery import (
     spec_file_index_from_package_index, spec_index_from_spec_file_index)
-from capabilities.providers import find_cycles
+from capabilities.planning.providers import find_cycles
 from capabilities.specs.common import InvalidSpec
 from rocon_uri.package_rules import vocabulary_from_package_index
-from rocon_uri.rapps import (
+from rocon_uri.apps.rapps import (
     rapp_file_index_from_package_index, rapps_from_rapp_file_index, with_inheritance)
 
 TYPE_CHECKING = False

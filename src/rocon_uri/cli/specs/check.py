@@ -26,7 +26,7 @@ from rocon_uri.cli.display import print_json
 from rocon_uri.cli.given import say
 from rocon_uri.cli.packages import (
     PackageReport, add_package_path, escape_unencodable, package_path, quiet_loggers)
-from rocon_uri.exceptions import quoted_path
+from rocon_uri.sources.wording import quoted_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

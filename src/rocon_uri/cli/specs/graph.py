@@ -24,7 +24,7 @@ import subprocess
 from rocon_uri.cli.display import print_json
 from rocon_uri.cli.packages import (
     PackageReport, Packages, add_package_path, escape_unencodable, package_path)
-from rocon_uri.exceptions import quoted_path
+from rocon_uri.sources.wording import quoted_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

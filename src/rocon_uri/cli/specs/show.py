@@ -20,7 +20,7 @@ from __future__ import annotations
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.packages import (
     PackageReport, Packages, add_package_path, escape_unencodable, package_path, printable)
-from rocon_uri.yaml_source import did_you_mean, near_misses, quoted
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ class Shown:
     """
 
     def __init__(self, spec: Any, index: SpecIndex) -> None:
-        from capabilities.providers import plan_for_provider    # here, since it loads YAML
+        from capabilities.planning.providers import plan_for_provider    # here, since it loads YAML
         from capabilities.specs.common import InvalidSpec
         self.spec = spec
         self.resolved: Any = None

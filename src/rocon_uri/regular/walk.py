@@ -13,13 +13,13 @@ from functools import reduce
 from operator import getitem
 from os.path import commonprefix
 
-from rocon_uri.regular_language import BEGIN
-from rocon_uri.regular_tree import ALPHABET
+from rocon_uri.regular.language import BEGIN
+from rocon_uri.regular.tree import ALPHABET
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Dict, List
-    from rocon_uri.regular_language import Language
+    from rocon_uri.regular.language import Language
     Derivatives = Dict[str, '_Derivative']
 else:
     Derivatives = dict

@@ -22,7 +22,8 @@ import os
 from collections import namedtuple
 
 from capabilities.specs.common import InvalidSpec, shown
-from rocon_uri.yaml_source import YamlError, YamlMapping, YamlSequence, load, read_file
+from rocon_uri.sources.yaml_data import YamlError, YamlMapping, YamlSequence
+from rocon_uri.sources.yaml_source import load, read_file
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -1,5 +1,5 @@
 """
-The events of PyYAML's parser into the data of `rocon_uri.yaml_source`.
+The events of PyYAML's parser into the data of `rocon_uri.sources.yaml_source`.
 
 A module of its own since it imports yaml, which is imported only when YAML is read.
 """
@@ -11,9 +11,9 @@ import yaml
 from yaml.events import (
     AliasEvent, MappingEndEvent, MappingStartEvent, ScalarEvent, SequenceEndEvent, StreamEndEvent)
 
-from rocon_uri._yaml_scalars import CORE, TAGGED, plain
-from rocon_uri.exceptions import quoted
-from rocon_uri.yaml_source import (
+from rocon_uri.sources.yaml_scalars import CORE, TAGGED, plain
+from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.yaml_data import (
     MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, end_position)
 
 TYPE_CHECKING = False

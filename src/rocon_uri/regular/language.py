@@ -14,7 +14,7 @@ import threading
 from functools import reduce
 from operator import getitem, or_
 
-from rocon_uri.regular_tree import ALPHABET, BIT, LETTERS, Node
+from rocon_uri.regular.tree import ALPHABET, BIT, LETTERS, Node
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

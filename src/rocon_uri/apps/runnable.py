@@ -10,10 +10,11 @@ from __future__ import annotations
 from collections import namedtuple
 from enum import Enum
 
-from capabilities.faults import Fault, FaultKind
-from capabilities.providers import plan_for_capabilities
+from capabilities.planning.faults import Fault, FaultKind
+from capabilities.planning.providers import plan_for_capabilities
 from rocon_uri.compatibility import explain
-from rocon_uri.exceptions import RoconURIValueError, quoted
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.sources.wording import quoted
 from rocon_uri.uri import parse
 from rocon_uri.vocabulary import Vocabulary
 
@@ -21,7 +22,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Iterator, Mapping, Optional, Union
     from capabilities.spec_index import SpecIndex
-    from rocon_uri.rapp import Rapp
+    from rocon_uri.apps.rapp import Rapp
     from rocon_uri.uri import RoconURI
 
 __all__ = ['Reason', 'ReasonKind', 'Verdict', 'runnable']

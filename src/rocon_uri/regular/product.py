@@ -11,9 +11,10 @@ from functools import reduce
 from itertools import islice
 from operator import or_
 
-from rocon_uri.exceptions import PatternTooComplex, quoted
-from rocon_uri.regular_language import BEGIN, Language, Step, Unions
-from rocon_uri.regular_tree import ALPHABET, BIT, LETTERS
+from rocon_uri.exceptions import PatternTooComplex
+from rocon_uri.sources.wording import quoted
+from rocon_uri.regular.language import BEGIN, Language, Step, Unions
+from rocon_uri.regular.tree import ALPHABET, BIT, LETTERS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

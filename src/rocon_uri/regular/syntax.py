@@ -13,8 +13,9 @@ from __future__ import annotations
 
 import re
 
-from rocon_uri.exceptions import RoconURIValueError, quoted
-from rocon_uri.regular_tree import (
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.sources.wording import quoted
+from rocon_uri.regular.tree import (
     BIT, DIGITS, LETTERS, LOWER, NOTHING, UPPER, WORD, Node, characters, choice, repeat, sequence)
 
 TYPE_CHECKING = False

@@ -1,0 +1,1 @@
+"""Apps: what packages export as such, and whether a robot can run them."""

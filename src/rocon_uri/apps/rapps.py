@@ -1,0 +1,165 @@
+"""
+Rapps (robot apps): those that packages export, and what they have from their parents.
+
+A package exports a rapp with the path of its file, relative to the package::
+
+    <export><rocon_app>rapps/dance/dance.rapp</rocon_app></export>
+
+Its name is that of the package and of the file, ``our_rapps/dance``.
+
+>>> from capabilities.discovery import package_index_from_package_path
+>>> packages = package_index_from_package_path(['examples/workspace'])
+>>> rapps, errors = rapps_from_package_index(packages)
+>>> rapps['cafe_rapps/serve'].compatibility
+'rocon:/turtlebot2|waiterbot'
+"""
+from __future__ import annotations
+
+import os
+
+from rocon_uri.apps.rapp import InvalidRapp, Rapp, RequiredCapability, rapp_from_file_path
+from rocon_uri.apps.rapp import rapp_from_string
+from rocon_uri.apps.runnable import Reason, ReasonKind, Verdict, runnable
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted, quoted_path
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+
+__all__ = ['InvalidRapp', 'Rapp', 'Reason', 'ReasonKind', 'RequiredCapability', 'Verdict',
+           'rapp_file_index_from_package_index', 'rapp_from_file_path', 'rapp_from_string',
+           'rapp_name', 'rapps_from_package_index', 'rapps_from_rapp_file_index', 'runnable',
+           'with_inheritance']
+
+
+def rapp_name(package: str, path: str) -> str:
+    """
+    What a rapp is called.
+
+    :param str package: the name of the package that exports it
+    :param str path: its file
+    :returns: str
+
+    >>> rapp_name('our_rapps', 'rapps/dance/dance.rapp')
+    'our_rapps/dance'
+    """
+    return '%s/%s' % (package, os.path.splitext(os.path.basename(path))[0])
+
+
+def rapp_file_index_from_package_index(package_index: Mapping[str, Any]) -> Dict[str, List[str]]:
+    """
+    The files that packages export as rapps, whether they exist or not.
+
+    :param package_index: mapping of package names to catkin_pkg packages, as
+        `capabilities.discovery.package_index_from_package_path` gives it
+    :returns: dict of package name to a list of paths, in the order of the exports; packages
+        without any are left out
+    """
+    index: Dict[str, List[str]] = {}
+    for name, package in package_index.items():
+        folder = os.path.dirname(package.filename)
+        for export in package.exports:
+            if export.tagname == 'rocon_app':
+                path = os.path.join(folder, export.content)
+                index.setdefault(name, []).append(os.path.normpath(path))
+    return index
+
+
+def rapps_from_package_index(
+        package_index: Mapping[str, Any]) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
+    """
+    The rapps that packages export, with what they have from their parents.
+
+    :param package_index: as `rapp_file_index_from_package_index` takes it
+    :returns: (dict of `Rapp` by name, list of `InvalidRapp`); what is wrong with one rapp costs
+        that one only
+    """
+    rapps, errors = rapps_from_rapp_file_index(rapp_file_index_from_package_index(package_index))
+    related, more_errors = with_inheritance(rapps.values())
+    return related, errors + more_errors
+
+
+def rapps_from_rapp_file_index(
+        rapp_file_index: Mapping[str, Iterable[str]],
+        ) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
+    """
+    The rapps in some files, with what they say themselves.
+
+    :param rapp_file_index: as `rapp_file_index_from_package_index` returns it
+    :returns: (dict of `Rapp` by name, list of `InvalidRapp`); of several rapps of one name, the
+        first counts
+    """
+    rapps: Dict[str, Rapp] = {}
+    errors: List[InvalidRapp] = []
+    for package, paths in rapp_file_index.items():
+        for path in paths:
+            try:
+                rapp = _rapp_of_package(package, path)
+                if rapp.name in rapps:
+                    raise InvalidRapp('rapp %s is there already, in %s' % (
+                        quoted(rapp.name), quoted_path(rapps[rapp.name].path)), path)
+                rapps[rapp.name] = rapp
+            except InvalidRapp as error:
+                errors.append(error)
+    return rapps, errors
+
+
+def _rapp_of_package(package: str, path: str) -> Rapp:
+    try:
+        return rapp_from_file_path(path, rapp_name(package, path))
+    except OSError as error:
+        raise InvalidRapp('cannot be read: %s' % (error.strerror or error), path) from None
+
+
+def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
+    """
+    Rapps with what they have from their parents, through all generations.
+
+    A parent that is not among them is an error of the rapp that names it, a cycle one of the rapps
+    on it; whoever descends from those inherits what can be had.
+
+    :param rapps: iterable of Rapp
+    :returns: (dict of `Rapp` by name, list of `InvalidRapp`)
+    """
+    by_name = {rapp.name: rapp for rapp in rapps}
+    related: Dict[str, Rapp] = {}
+    errors: Dict[str, InvalidRapp] = {}
+    for rapp in by_name.values():
+        line: Dict[str, Rapp] = {}      # of descent, from the rapp upwards
+        ancestor: Optional[Rapp] = rapp
+        while ancestor is not None and not (
+                ancestor.name in related or ancestor.name in line):
+            line[ancestor.name] = ancestor
+            ancestor = by_name.get(ancestor.parent_name)
+        if ancestor is not None and ancestor.name in line:
+            cycle = list(line)[list(line).index(ancestor.name):]
+            for index, member in enumerate(cycle):
+                errors[member] = _cycle_error(by_name[member], cycle, index)
+                related[member] = by_name[member]
+        for name, descendant in reversed(list(line.items())):
+            parent = related.get(descendant.parent_name)
+            if parent is None and not descendant.is_ancestor:
+                errors.setdefault(name, _missing_parent_error(descendant, by_name))
+            if name not in related:
+                related[name] = descendant if parent is None else descendant.inheriting(parent)
+    return ({name: related[name] for name in by_name if name not in errors},
+            [errors[name] for name in by_name if name in errors])
+
+
+def _missing_parent_error(rapp: Rapp, by_name: Mapping[str, Rapp]) -> InvalidRapp:
+    package, _, own_name = rapp.parent_name.partition('/')
+    near = near_misses(rapp.parent_name, [     # of all names, there may be too many
+        name for name in by_name
+        if name.startswith(package + '/') or name.endswith('/' + own_name)])
+    return InvalidRapp('parent_name %s is no rapp that can be read%s' % (
+        quoted(rapp.parent_name), did_you_mean(near)),
+        rapp.path, *rapp.position('parent_name'))
+
+
+def _cycle_error(rapp: Rapp, cycle: Sequence[str], index: int) -> InvalidRapp:
+    ancestors = [cycle[(index + step) % len(cycle)] for step in range(1, min(len(cycle), 6))]
+    if len(cycle) > 6:
+        ancestors.append('...')
+    return InvalidRapp('rapp %s is its own ancestor: %s' % (
+        quoted(rapp.name), ' -> '.join([rapp.name] + ancestors + [rapp.name])),
+        rapp.path, *rapp.position('parent_name'))

@@ -1,0 +1,1 @@
+"""Regular languages of names: syntax, automata, and what two of them have in common."""

@@ -1,0 +1,59 @@
+"""
+The name checks of ``rosgraph.names`` and ``roslib.names``, without importing ROS.
+
+They answer as the originals do, except for letters outside ASCII: the originals let them
+through on Python 3, roscpp and these do not. There is no limit of length here.
+"""
+from __future__ import annotations
+
+import re
+
+__all__ = ['is_legal_base_name', 'is_legal_name', 'is_legal_resource_name']
+
+_base_name = re.compile(r'[A-Za-z]\w*', re.ASCII).fullmatch
+_resource_name = re.compile(r'[A-Za-z][\w/]*', re.ASCII).fullmatch
+_graph_name = re.compile(r'[~/A-Za-z][\w/]*', re.ASCII).fullmatch
+
+
+def is_legal_base_name(name: str | None) -> bool:
+    """
+    Is this a name without a namespace, as of a robot: a letter, then letters, digits and ``_``?
+
+    :param str name: the name; ``None`` is not legal
+    :returns: bool
+
+    >>> is_legal_base_name('bob_7'), is_legal_base_name('7bob'), is_legal_base_name('a/bob')
+    (True, False, False)
+    """
+    return name is not None and _base_name(name) is not None
+
+
+def is_legal_resource_name(name: str | None) -> bool:
+    """
+    Is this a name of something in a package, as ``rocon_apps/teleop``?
+
+    Looser than what a rocon URI admits as its ``rocon_app``: ``a/b/c`` and ``a/`` pass, as they
+    do in ``roslib.names``.
+
+    :param str name: the name; ``None`` is not legal
+    :returns: bool
+
+    >>> is_legal_resource_name('rocon_apps/teleop'), is_legal_resource_name('/teleop')
+    (True, False)
+    """
+    return name is not None and _resource_name(name) is not None and '//' not in name
+
+
+def is_legal_name(name: str | None) -> bool:
+    """
+    Is this a name in the ROS graph, as of a topic: global, private, relative or empty?
+
+    :param str name: the name; ``None`` is not legal
+    :returns: bool
+
+    >>> is_legal_name('/camera/image_raw'), is_legal_name('~rate'), is_legal_name('a//b')
+    (True, True, False)
+    """
+    if not name:
+        return name == ''
+    return _graph_name(name) is not None and '//' not in name

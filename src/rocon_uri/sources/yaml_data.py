@@ -1,0 +1,150 @@
+"""Plain data read from YAML that knows its lines, and the limits of what is read."""
+from __future__ import annotations
+
+import re
+
+from rocon_uri.sources.located import located
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Dict, List, Optional, Tuple
+
+    Position = Tuple[int, int]
+
+__all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'end_position']
+
+MAX_SIZE = 2 ** 20      # bytes of a file, characters of a text, and what aliases may add
+MAX_DEPTH = 100         # collections in one another
+
+_split_lines = re.compile('\r\n|[\r\n\x85\u2028\u2029]').split
+
+
+class YamlError(ValueError):
+    """
+    A text that is not YAML, or more of it than is read.
+
+    :param str problem: what is wrong
+    :param str file_name: where the text is from
+    :param int line: where in it, counted from 1
+    :param int column: counted from 1
+
+    The attributes have the names of the parameters.
+
+    >>> print(YamlError('nested deeper than 100', 'laser.yaml', 1, 101))
+    laser.yaml:1:101: nested deeper than 100
+    """
+
+    def __init__(self, problem: str, file_name: str, line: int, column: int) -> None:
+        super().__init__(problem, file_name, line, column)
+        self.problem = problem
+        self.file_name = file_name
+        self.line = line
+        self.column = column
+
+    def __str__(self) -> str:
+        return located(self.problem, self.file_name, self.line, self.column)
+
+
+class YamlMapping(dict):    # type: ignore[type-arg]    # dict[...] is not to be had in Python 3.8
+    """
+    A mapping read from YAML, in the order of the file: a ``dict`` that knows its positions.
+
+    Keys are ``str``, ``int``, ``float``, ``bool`` or ``None``. Positions are those of the reading;
+    a key that is put in later has none.
+    """
+
+    __slots__ = ('_start', '_positions', 'repeated')
+
+    def __init__(self, line: int, column: int,
+                 positions: Optional[Dict[Any, Tuple[int, int, int, int]]] = None) -> None:
+        super().__init__()
+        # Counted from 0, as the parser does, since few of them are ever asked for.
+        self._start = line, column
+        self._positions = {} if positions is None else positions
+        #: What was lost to a repeated key: a list of (key, its earlier value, position of the
+        #: repetition), empty as a rule.
+        self.repeated: List[Tuple[Any, Any, Position]] = []
+
+    @property
+    def position(self) -> Position:
+        """Where the mapping begins: (line, column)."""
+        return self._start[0] + 1, self._start[1] + 1
+
+    def key_position(self, key: Any) -> Position:
+        """
+        Where the key stands. (That of the last one, if it is repeated.)
+
+        :param key: a key of the mapping
+        :returns: (int, int), line and column
+        :raises KeyError: if it was not read
+
+        >>> load('a: b', 'f').key_position('a')
+        (1, 1)
+        """
+        line, column, _, _ = self._positions[key]
+        return line + 1, column + 1
+
+    def value_position(self, key: Any) -> Position:
+        """
+        Where the value of the key begins; where an alias stands, if it is one.
+
+        :param key: a key of the mapping
+        :returns: (int, int), line and column
+        :raises KeyError: if it was not read
+
+        >>> load('a: b', 'f').value_position('a')
+        (1, 4)
+        """
+        _, _, line, column = self._positions[key]
+        return line + 1, column + 1
+
+    def merge(self, sources: List[YamlMapping]) -> None:
+        """
+        Put the keys of others before one's own, as a merge key does. One's own win.
+
+        :param sources: list of `YamlMapping`; a later one wins over an earlier one
+        """
+        own, own_positions = dict(self), self._positions.copy()
+        self.clear()
+        self._positions.clear()
+        for source in sources:
+            self.update(source)
+            self._positions.update(source._positions)
+        self.update(own)
+        self._positions.update(own_positions)
+
+
+class YamlSequence(list):   # type: ignore[type-arg]
+    """A sequence read from YAML: a ``list`` that knows its positions, those of the reading."""
+
+    __slots__ = ('_start', '_positions')
+
+    def __init__(self, line: int, column: int, positions: List[Position]) -> None:
+        super().__init__()
+        self._start = line, column
+        self._positions = positions
+
+    @property
+    def position(self) -> Position:
+        """Where the sequence begins: (line, column)."""
+        return self._start[0] + 1, self._start[1] + 1
+
+    def item_position(self, index: int) -> Position:
+        """
+        Where an item begins; where an alias stands, if it is one.
+
+        :param int index: which item
+        :returns: (int, int), line and column
+        :raises IndexError: if it was not read
+
+        >>> load('[a, b]', 'f').item_position(1)
+        (1, 5)
+        """
+        line, column = self._positions[index]
+        return line + 1, column + 1
+
+
+def end_position(text: str) -> Position:
+    """The line and column, counted from 1, at which this text ends."""
+    lines = _split_lines(text)
+    return len(lines), len(lines[-1]) + 1

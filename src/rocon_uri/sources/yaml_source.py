@@ -1,0 +1,144 @@
+"""
+Untrusted YAML (and JSON, a subset of it) into plain data that knows its lines.
+
+``load`` reads a text and ``load_file`` a file. What comes back is what ``yaml.safe_load`` gives,
+except that mappings are `YamlMapping`, a ``dict``, and sequences `YamlSequence`, a ``list``, which
+also answer where in the text a key, a value or an item begins:
+
+>>> source = load('topics:\\n  scan: sensor_msgs/LaserScan\\n', 'laser.yaml')
+>>> source['topics']
+{'scan': 'sensor_msgs/LaserScan'}
+>>> source['topics'].key_position('scan'), source['topics'].value_position('scan')
+((2, 3), (2, 9))
+
+Positions are (line, column), both counted from 1. Whatever the text holds, it is read, or refused
+with one `YamlError` that says where:
+
+>>> load('topics: [', 'laser.yaml')
+Traceback (most recent call last):
+    ...
+rocon_uri.yaml_source.YamlError: laser.yaml:2:1: did not find expected node content while \
+parsing a flow node
+
+What a text may cost is bounded: 1 MiB of text, collections nested 100 deep, and 1 MiB that aliases
+and merges add. An alias gives the same object again, not a copy. The text is read from the parser's
+events, never composed or loaded: libyaml's composer overruns the stack on a few tens of thousands
+of ``[``.
+
+- Plain scalars have the types of YAML 1.1, as in ``yaml.safe_load`` (``yes``, ``0x1F``, ``1:30``),
+  but for dates and ``=``, which stay text. A number of over 256 characters is refused.
+- A tag makes nothing: those of the core types (``!!str``, ``!!int``, ...) are read, others refused.
+- Merge keys (``<<``) are read; a mapping's own keys win over merged ones, wherever they stand.
+- A repeated key is not an error here. The last one wins, and ``YamlMapping.repeated`` lists what
+  was lost; ``1``, ``1.0`` and ``true`` are one key, as in Python. A collection as key is refused,
+  and so are more than 100 keys of one mapping that are not text.
+- One document; an empty text is ``None``.
+- Text is UTF-8, or UTF-16 with a byte order mark. A lone surrogate or a control character that
+  is not escaped is refused.
+"""
+from __future__ import annotations
+
+import re
+
+from rocon_uri.sources.yaml_data import (
+    MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, end_position)
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from os import PathLike
+    from typing import Any, Tuple, Union
+
+    Position = Tuple[int, int]
+
+__all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'load',
+           'load_file', 'read_file']
+
+_MAX_TAG_DIRECTIVES = 100   # libyaml compares each with all before it
+
+_tag_directives = re.compile('(?:^|[\r\n\x85\u2028\u2029])%TAG').findall
+
+
+def load(content: Union[str, bytes], file_name: str = '<string>') -> Any:
+    """
+    Read one YAML document.
+
+    :param content: the text, str or bytes
+    :param str file_name: the name that errors give
+    :returns: `YamlMapping`, `YamlSequence`, str, int, float, bool or None
+    :raises YamlError: if it is not YAML or passes a limit
+
+    >>> load('[yes, 0x1F, 2014-01-01]')
+    [True, 31, '2014-01-01']
+    """
+    if len(content) > MAX_SIZE:
+        raise YamlError('larger than 1 MiB, which is all that is read', file_name, 1, 1)
+    # Here, since it imports yaml, which who reads no YAML need not have.
+    from rocon_uri.sources.yaml_events import Reader
+    return Reader(_text(content, file_name), file_name).document()
+
+
+def load_file(path: Union[str, PathLike[str]]) -> Any:
+    """
+    Read a file that holds one YAML document.
+
+    :param path: the file, str or path object
+    :returns: as `load`
+    :raises YamlError: if it is not YAML or passes a limit
+    :raises OSError: if it cannot be read, or is not a regular file
+
+    >>> load_file('test/unit/specs/interfaces/RGBCamera.yaml')['name']
+    'RGBCamera'
+    """
+    return load(read_file(path), str(path))
+
+
+def read_file(path: Union[str, PathLike[str]]) -> bytes:
+    """
+    The content of a regular file, as far as `load` needs it to see that it is too large.
+
+    :param path: the file, str or path object
+    :returns: bytes, at most one more than 1 MiB
+    :raises OSError: if it cannot be read; a directory, a FIFO and a device are not
+
+    >>> read_file('test/unit/specs/interfaces/RGBCamera.yaml')[:9]
+    b'%YAML 1.1'
+    """
+    import errno
+    import os
+    import stat
+
+    def opener(name: str, flags: int) -> int:
+        # Without O_NONBLOCK, opening a FIFO waits for somebody to write to it.
+        return os.open(name, flags | os.O_NONBLOCK | os.O_NOCTTY)
+
+    try:
+        with open(path, 'rb', opener=opener) as file:
+            status = os.fstat(file.fileno())
+            if not stat.S_ISREG(status.st_mode):
+                raise OSError(errno.EINVAL, 'Not a regular file', str(path))
+            # The buffer for a read is as large as what is asked for, so that is not 1 MiB.
+            content = file.read(min(status.st_size, MAX_SIZE) + 1)
+            if status.st_size < len(content) <= MAX_SIZE:   # it grows, or is one of /proc
+                content += file.read(MAX_SIZE + 1 - len(content))
+            return content
+    except ValueError as error:     # a NUL or a lone surrogate in the path
+        raise OSError(errno.EINVAL, str(error), str(path)) from error
+
+
+def _text(content: Union[str, bytes], file_name: str) -> str:
+    """The content as text that either parser takes as it is."""
+    if isinstance(content, str):
+        text = content
+    else:
+        encoding = 'utf-16' if content[:2] in (b'\xff\xfe', b'\xfe\xff') else 'utf-8'
+        try:
+            text = content.decode(encoding)
+        except UnicodeDecodeError as error:
+            before = content[:error.start].decode(encoding, 'replace')
+            raise YamlError('not %s text: %s' % (encoding.upper(), error.reason), file_name,
+                            *end_position(before)) from error
+    # Counting them anywhere first takes a fiftieth of the time, and is all that most texts need.
+    if (text.count('%TAG') > _MAX_TAG_DIRECTIVES
+            and len(_tag_directives(text)) > _MAX_TAG_DIRECTIVES):
+        raise YamlError('more than %d %%TAG directives' % _MAX_TAG_DIRECTIVES, file_name, 1, 1)
+    return text[1:] if text.startswith('\ufeff') else text
