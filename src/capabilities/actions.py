@@ -1,0 +1,45 @@
+"""What `capabilities.graph.Graph` answers: results, refusals, and what is to be done."""
+from __future__ import annotations
+
+from enum import Enum
+from typing import NamedTuple
+
+from capabilities.instances import CapabilityInstance
+
+__all__ = ['ENDS', 'Action', 'Do', 'RefusedRequest', 'StartResult']
+
+ENDS = 'the capability server ends'
+
+
+class RefusedRequest(RuntimeError):
+    """A request that cannot be fulfilled; its text is for who asked."""
+
+
+class StartResult(Enum):
+    """What an explicit start did; the values are those of the service."""
+
+    SUCCESS = 0
+    STARTING = 1
+    RUNNING = 2
+    STOPPING = 3
+
+
+class Do(Enum):
+    """What is to be done with an instance."""
+
+    #: make its process, and tell `Graph.launched` or `Graph.launch_failed`
+    LAUNCH = 'launch'
+    #: end its process; `Graph.ended` is told when it is gone
+    STOP = 'stop'
+    TELL_LAUNCHED = 'tell launched'
+    TELL_STOPPED = 'tell stopped'
+    TELL_TERMINATED = 'tell terminated'
+    #: answer those who wait until it is gone
+    GONE = 'gone'
+
+
+class Action(NamedTuple):
+    """One thing to be done."""
+
+    do: Do
+    instance: CapabilityInstance

@@ -1,0 +1,76 @@
+"""An instance of a capability: its states, and the old class that it is."""
+from types import SimpleNamespace
+
+import pytest
+
+from capabilities.instances import CapabilityInstance, State, get_reverse_depends
+
+
+@pytest.fixture
+def instance():
+    spec = SimpleNamespace(name='nav/amcl', implements='nav/Nav', dependencies={'base/Base': None})
+    return CapabilityInstance(spec, '/nav.yaml')
+
+
+def test_it_has_the_attributes_of_old(instance):
+    assert (instance.name, instance.provider, instance.interface) == (
+        'nav/amcl', 'nav/amcl', 'nav/Nav')
+    assert (instance.pid, instance.depends_on, instance.canceled, instance.started_by) == (
+        None, ['base/Base'], False, 'unknown')
+    assert (instance.bonds, instance.reference_count, instance.state) == ({}, 0, 'waiting')
+
+
+def test_the_states_follow_each_other(instance):
+    assert instance.launch() and instance.state == 'launching'
+    assert instance.launched(42) and instance.state == 'running' and instance.pid == 42
+    assert instance.degraded() and instance.state == 'degraded'
+    assert instance.stopped() and instance.state == 'stopping'
+    assert instance.terminated() and instance.state == 'terminated'
+
+
+@pytest.mark.parametrize('state, allowed', [
+    ('waiting', ['launch', 'cancel']),
+    ('launching', ['launched', 'degraded', 'stopped']),
+    ('running', ['degraded', 'stopped']),
+    ('degraded', ['degraded', 'stopped']),
+    ('stopping', ['terminated']),
+    ('terminated', []),
+])
+def test_a_wrong_transition_is_refused_and_logged(instance, caplog, state, allowed):
+    for name in 'launch', 'cancel', 'launched', 'degraded', 'stopped', 'terminated':
+        instance._CapabilityInstance__state = state
+        caplog.clear()
+        transition = getattr(instance, name)
+        assert transition(*([42] if name == 'launched' else [])) == (name in allowed)
+        assert bool(caplog.records) == (name not in allowed)
+
+
+def test_terminated_is_accepted_from_any_state(instance):
+    instance.launch()
+    assert not instance.terminated()
+    assert instance.state is State.TERMINATED
+
+
+def test_a_cancelled_one_says_so(instance):
+    assert instance.cancel() and instance.canceled
+
+
+def test_uses_are_counted_by_bond(instance):
+    for bond, asked_as in ('a', 'nav/Nav'), ('a', 'nav/Plain'), ('b', 'nav/Nav'):
+        instance.add_use(bond, asked_as)
+    assert instance.bonds == {'a': 2, 'b': 1} and instance.reference_count == 3
+    assert instance.asked_as == {('a', 'nav/Plain'): 1}
+    instance.remove_use('a', 'nav/Nav')
+    assert instance.asked_as == {('a', 'nav/Plain'): 1}
+    instance.remove_use('a', 'nav/Nav')
+    assert instance.asked_as == {} and instance.bonds == {'b': 1}
+    instance.add_use('a', 'nav/Plain')
+    instance.drop_wants('a')
+    assert instance.bonds == {'b': 1} and instance.asked_as == {}
+    instance.drop_wants()
+    assert instance.bonds == {}
+
+
+def test_reverse_dependencies_are_found_by_name(instance):
+    assert get_reverse_depends('base/Base', [instance]) == [instance]
+    assert get_reverse_depends('nav/Nav', [instance]) == []
