@@ -105,9 +105,11 @@ class TestChoice:
             FaultKind.WRONG_PROVIDER, 'p/Camera', asked_for='p/Camera', provider='p/scanner',
             is_default=True, implements='p/Laser', candidates=('p/left', 'p/right'))
         assert fault.to_dict() == {
-            'kind': 'wrong provider', 'capability': 'p/Camera', 'asked_for': 'p/Camera',
+            'kind': 'wrong-provider', 'capability': 'p/Camera', 'asked_for': 'p/Camera',
             'required_by': None, 'provider': 'p/scanner', 'is_default': True,
-            'implements': 'p/Laser', 'candidates': ['p/left', 'p/right'], 'cycle': []}
+            'implements': 'p/Laser', 'candidates': ['p/left', 'p/right'],
+            'semantic_candidates': [], 'cycle': [], 'launch_file': None, 'line': None,
+            'column': None, 'sharers': [], 'running': None}
 
     def test_a_semantic_interface_has_providers_of_its_own(self) -> None:
         index = spec_index('camera Camera')

@@ -1,0 +1,95 @@
+"""What stands in the way of launching the providers of a plan."""
+from __future__ import annotations
+
+import os
+from typing import Callable, Dict, Iterable, List, NamedTuple, Optional
+
+from capabilities.planning.faults import Fault, FaultKind
+from capabilities.planning.plan import RunningProvider
+from capabilities.spec_index import SpecIndex
+from capabilities.specs.provider import CapabilityProvider
+from rocon_uri.sources.launch_file import LaunchFile
+
+__all__ = ['Launches', 'LookAt']
+
+#: As `LaunchFiles.look_at`: the name of a launch file and the folder that it is relative to. What
+#: it says is None where the file was never read, and is not to be read now.
+LookAt = Callable[[str, str], Optional[LaunchFile]]
+
+
+class _Launch(NamedTuple):
+    """A provider that is to be launched."""
+
+    #: what it implements
+    capability: str
+    #: its name
+    provider: str
+    #: what was asked for, and led here
+    asked_for: str
+
+
+class Launches:
+    """
+    The providers that a plan launches, and the faults of it.
+
+    A launch file is relative to the folder of the provider's spec. roslaunch can run each only
+    once at a time, since the names of its nodes would be there twice.
+
+    :param SpecIndex spec_index: where the specs are from
+    :param running: iterable of `RunningProvider`, whose launch files are in use
+    :param look_at: says what is against a launch file; None where that does not matter
+    :param bool nodelet_manager: is there one?
+    """
+
+    def __init__(self, spec_index: SpecIndex, running: Iterable[RunningProvider],
+                 look_at: Optional[LookAt], nodelet_manager: bool) -> None:
+        self.unread: List[str] = []
+        self._spec_paths = spec_index.provider_paths
+        self._look_at = look_at
+        self._nodelet_manager = nodelet_manager
+        self._faults: List[Fault] = []
+        self._in_use: Dict[str, List[RunningProvider]] = {}
+        for one in running:
+            if one.launch_file is not None:
+                self._in_use.setdefault(one.launch_file, []).append(one)
+        self._launched: Dict[str, List[_Launch]] = {}
+
+    def add(self, capability: str, spec: CapabilityProvider, asked_for: str) -> Optional[str]:
+        """
+        Add a provider.
+
+        :returns: str, where its launch file is; None if it has none, or none that is there
+        """
+        launch = _Launch(capability, spec.name, asked_for)
+        if spec.nodelet_manager and not self._nodelet_manager:
+            self._faults.append(Fault(FaultKind.NO_NODELET_MANAGER, capability, asked_for,
+                                      provider=spec.name))
+        if self._look_at is None or not spec.launch_file:
+            return None
+        folder = os.path.dirname(self._spec_paths[spec.name])
+        file = self._look_at(spec.launch_file, folder)
+        if file is None:
+            self.unread.append(os.path.join(folder, spec.launch_file))
+            return None
+        if file.fault is not None:
+            self._faults.append(Fault(FaultKind(file.fault.kind), capability, asked_for,
+                                      provider=spec.name, launch=file.fault))
+        if file.real_path is not None:
+            self._launched.setdefault(file.real_path, []).append(launch)
+        return file.real_path
+
+    def all_faults(self) -> List[Fault]:
+        """The faults of what was added, then the launch files that are shared."""
+        return self._faults + [fault for path in self._launched for fault in self._shared(path)]
+
+    def _shared(self, path: str) -> Iterable[Fault]:
+        launched = self._launched[path]
+        capabilities = {launch.capability for launch in launched}
+        providers = tuple(launch.provider for launch in launched)
+        in_use = [one for one in self._in_use.get(path, ()) if one.capability not in capabilities]
+        if not in_use and len(launched) == 1:
+            return
+        running = in_use[0].provider if in_use else None
+        yield Fault(FaultKind.LAUNCH_SHARED, launched[-1].capability, launched[-1].asked_for,
+                    provider=providers[-1], launch_file=path, running=running,
+                    sharers=(() if running is None else (running,)) + providers)

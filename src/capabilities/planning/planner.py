@@ -1,0 +1,193 @@
+"""How a plan is made: a provider for each capability, what has to run before it, and the faults."""
+from __future__ import annotations
+
+from typing import Collection, Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple, Union
+
+from capabilities.planning.faults import Fault, FaultKind
+from capabilities.planning.launching import Launches, LookAt
+from capabilities.planning.plan import PlannedProvider, RunningProvider, StartPlan
+from capabilities.planning.start_order import components, cycle_in
+from capabilities.spec_index import SpecIndex
+
+__all__ = ['Planner']
+
+
+class _Instance(NamedTuple):
+    """An instance of a capability, that runs or has to be started."""
+
+    #: what the provider implements
+    capability: str
+    #: its name
+    provider: str
+    #: is there one already?
+    running: bool
+
+
+class _Need(NamedTuple):
+    """A capability that something needs."""
+
+    #: its name
+    capability: str
+    #: the provider that is preferred; '' or None where any will do
+    preferred: Optional[str]
+    #: what was asked for, and led here
+    asked_for: str
+    #: the provider that depends on it; None for what was asked for
+    required_by: Optional[str] = None
+
+
+class Planner:
+    """
+    The providers chosen so far, and what they depend on.
+
+    :param SpecIndex spec_index: what there is
+    :param defaults: mapping from capabilities to their default providers, both str
+    :param running: iterable of `RunningProvider`
+    """
+
+    def __init__(self, spec_index: SpecIndex, defaults: Optional[Mapping[str, str]],
+                 running: Iterable[RunningProvider] = ()) -> None:
+        self.specs = spec_index.providers
+        self._spec_index = spec_index
+        self._redefined = {name: spec.redefines
+                           for name, spec in spec_index.semantic_interfaces.items()}
+        self._capabilities = {*spec_index.interface_names, *self._redefined}
+        self._defaults = defaults or {}
+        self._running = list(running)
+        self._instances = {one.capability: _Instance(one.capability, one.provider, True)
+                           for one in self._running if not one.ends}
+        self._candidates: Dict[str, Tuple[str, ...]] = {}
+        self._dependencies: Dict[_Instance, List[_Instance]] = {}
+        self._first_need: Dict[_Instance, _Need] = {}
+        self._preferences: Dict[str, Dict[str, None]] = {}      # of sets that keep their order
+        self._faults: List[Fault] = []
+
+    def add(self, asked_for: str, preferred: Optional[str] = None) -> None:
+        """Find an instance of a capability, and of all that it depends on."""
+        waiting: List[Tuple[_Need, Optional[_Instance]]] = [
+            (_Need(asked_for, preferred, asked_for), None)]
+        while waiting:
+            need, dependent = waiting.pop()
+            instance = self._instance(need)
+            if isinstance(instance, Fault):
+                self._faults.append(instance)
+                continue
+            if dependent is not None:
+                self._dependencies[dependent].append(instance)
+            if instance not in self._dependencies:
+                self._dependencies[instance] = []
+                self._first_need[instance] = need
+                if not instance.running:    # no fault is looked for below what runs
+                    needed = self.specs[instance.provider].dependencies.values()
+                    waiting += [(_Need(one.capability_name, one.preferred_provider, asked_for,
+                                       instance.provider), instance)
+                                for one in reversed(list(needed))]
+
+    def choose(self, capability: str, preferred: Optional[str], asked_for: str,
+               required_by: Optional[str] = None) -> Union[str, Fault]:
+        """The provider for a capability, or the fault that there is none."""
+        def fault(kind: FaultKind, provider: Optional[str] = None,
+                  implements: Optional[str] = None, candidates: Tuple[str, ...] = (),
+                  semantic_candidates: Tuple[str, ...] = (),
+                  known: Collection[str] = ()) -> Fault:
+            return Fault(kind, capability, asked_for, required_by, provider,
+                         provider is not None and not preferred, implements, candidates,
+                         semantic_candidates, known=known)
+
+        if capability not in self._capabilities:
+            return fault(FaultKind.NO_INTERFACE, known=self._capabilities)
+        candidates = self._candidates_for(capability)
+        named = preferred or self._defaults.get(capability)
+        if named:
+            if named not in self.specs:
+                return fault(FaultKind.UNKNOWN_PROVIDER, named, None, candidates, known=self.specs)
+            implements = self.specs[named].implements
+            if capability not in (implements, self._redefined.get(implements)):
+                return fault(FaultKind.WRONG_PROVIDER, named, implements, candidates)
+            return str(named)
+        if not candidates:
+            return fault(FaultKind.NO_PROVIDER,
+                         semantic_candidates=self._semantic_candidates(capability))
+        if len(candidates) > 1:
+            return fault(FaultKind.AMBIGUOUS, candidates=candidates)
+        return candidates[0]
+
+    def plan(self, look_at: Optional[LookAt] = None, nodelet_manager: bool = True) -> StartPlan:
+        """
+        The plan for what was added.
+
+        :param look_at: as `LaunchFiles.look_at`; None where launch files do not matter
+        :param bool nodelet_manager: is there one?
+        """
+        faults = self._faults + self._conflicts()
+        order: List[_Instance] = []
+        for component in components(self._dependencies):
+            order += component
+            if len(component) > 1 or component[0] in self._dependencies[component[0]]:
+                cycle = cycle_in(component, self._dependencies)
+                faults.append(Fault(FaultKind.CYCLE, cycle[0].capability,
+                                    self._first_need[cycle[0]].asked_for,
+                                    cycle=tuple(one.provider for one in cycle)))
+        launches = Launches(self._spec_index, self._running, look_at, nodelet_manager)
+        steps = [self._step(instance, launches) for instance in order]
+        dependencies = {one.provider: [below.provider for below in needed]
+                        for one, needed in self._dependencies.items()}
+        providers: Dict[str, str] = {}
+        for one in self._dependencies:
+            providers.setdefault(one.capability, one.provider)
+        return StartPlan([step.provider for step in steps if not step.running], providers,
+                         dependencies, faults + launches.all_faults(), tuple(steps),
+                         tuple(launches.unread))
+
+    def _instance(self, need: _Need) -> Union[_Instance, Fault]:
+        """What a need is met by: an instance that there is, whatever its provider, or a new one."""
+        running = self._instances.get(need.capability)
+        if running is not None and not need.preferred:
+            return running
+        chosen = self.choose(*need)
+        if isinstance(chosen, Fault):
+            # To ask for a provider that cannot be is a fault of who asks; a dependency is there.
+            return chosen if running is None or need.required_by is None else running
+        implements = str(self.specs[chosen].implements)
+        shared = self._instances.get(implements, running)
+        if shared is not None:
+            return shared
+        if need.preferred:
+            self._preferences.setdefault(need.capability, {})[chosen] = None
+        return _Instance(implements, chosen, False)
+
+    def _candidates_for(self, capability: str) -> Tuple[str, ...]:
+        if capability not in self._candidates:  # once, since many may ask for one that has many
+            self._candidates[capability] = tuple(self._spec_index.providers_of(capability))
+        return self._candidates[capability]
+
+    def _semantic_candidates(self, capability: str) -> Tuple[str, ...]:
+        return tuple(provider for name, redefined in self._redefined.items()
+                     if redefined == capability for provider in self._candidates_for(name))
+
+    def _conflicts(self) -> List[Fault]:
+        """Several providers that would have to run for one capability, or are preferred for it."""
+        chosen: Dict[str, Dict[str, None]] = {}
+        for instance in self._dependencies:
+            if not instance.running:
+                chosen.setdefault(instance.capability, {})[instance.provider] = None
+        faults: List[Fault] = []
+        for capability in {**chosen, **self._preferences}:
+            implementing = chosen.get(capability, {})
+            preferred = self._preferences.get(capability, {})
+            if len(implementing) > 1 or len(preferred) > 1:
+                candidates = tuple({**implementing, **preferred})
+                last = _Instance(str(self.specs[candidates[-1]].implements), candidates[-1], False)
+                faults.append(Fault(FaultKind.CONFLICT, capability,
+                                    self._first_need[last].asked_for, candidates=candidates))
+        return faults
+
+    def _step(self, instance: _Instance, launches: Launches) -> PlannedProvider:
+        capability, provider, running = instance
+        need = self._first_need[instance]
+        launch_file = None
+        if not running:
+            launch_file = launches.add(capability, self.specs[provider], need.asked_for)
+        depends_on = dict.fromkeys(below.capability for below in self._dependencies[instance])
+        return PlannedProvider(capability, provider, running, launch_file, tuple(depends_on),
+                               need.required_by)
