@@ -28,6 +28,7 @@ With --json a VERB prints one object. It always has "errors", a list of ERROR.
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import re
 import sys
@@ -50,7 +51,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     :param argv: sequence of str, its arguments; those of the process where left out
     :returns: int, the exit status; 130 if it was interrupted
     """
-    _open_missing_streams()
+    _prepare_streams()
     status = 0
     try:
         try:
@@ -72,11 +73,15 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     return status
 
 
-def _open_missing_streams() -> None:
+def _prepare_streams() -> None:
     """Python has None for a stream that is closed, and prints to the other one instead."""
     for name in ('stdout', 'stderr'):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, 'w'))       # noqa: SIM115, open until the end
+    # Python 3.8 buffers all of stderr where it is no terminal: errors would come after the output,
+    # and be lost where it cannot be written.
+    if isinstance(sys.stderr, io.TextIOWrapper):
+        sys.stderr.reconfigure(line_buffering=True)
 
 
 def _discard_output() -> None:

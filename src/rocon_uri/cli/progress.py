@@ -39,7 +39,9 @@ def progress(size: Optional[int]) -> Any:
         except ImportError:
             pass
         else:
-            return tqdm(total=size, unit='B', unit_scale=True, leave=False)
+            # Without a number of rows, newer versions show nothing on a terminal that does not
+            # know its height, as that of a container may not.
+            return tqdm(total=size, unit='B', unit_scale=True, leave=False, nrows=20)
     return _NoBar()
 
 
