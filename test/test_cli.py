@@ -3,13 +3,13 @@ from __future__ import annotations
 
 import json
 import os
-import pty
 import signal
 import subprocess
 import sys
 
 import pytest
 from sources import ROOT, SOURCE
+from terminal import open_terminal
 
 from rocon_uri.cli import VERBS, main
 
@@ -231,7 +231,7 @@ def test_interrupted():
 
 def run_on_terminal(*arguments, **changes):
     """What a terminal gets to see."""
-    ours, theirs = pty.openpty()
+    ours, theirs = open_terminal()
     with subprocess.Popen([*COMMAND, *arguments], stdin=theirs, stdout=theirs, stderr=theirs,
                           env=environment(**changes)):
         os.close(theirs)
@@ -279,8 +279,9 @@ HEAVY = {'argcomplete', 'contextlib', 'difflib', 'logging', 'platform', 'rospkg'
 
 
 def loaded_by(program):
+    program += '\nimport sys; print(*sys.modules, file=sys.stderr)'
     done = subprocess.run(
-        [sys.executable, '-S', '-c', program + '\nimport sys; print(*sys.modules, file=sys.stderr)'],
+        [sys.executable, '-S', '-c', program],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, env=environment())
     return set(done.stderr.split())
 

@@ -1,12 +1,12 @@
 """match with more lines than are read at once."""
 import os
-import pty
 import random
 import subprocess
 import sys
 
 import pytest
 from sources import ROOT, SOURCE
+from terminal import open_terminal
 
 from rocon_uri import RoconURIValueError, is_compatible
 from rocon_uri.cli import main
@@ -66,7 +66,7 @@ def stderr_on_a_terminal(before, file):
     """What match writes to stderr, which is a terminal; ``before`` is run in the process first."""
     program = '%s; from rocon_uri.cli import main; main(["match", "rocon:/pr2", "--in", %r])' % (
         before, file)
-    ours, theirs = pty.openpty()
+    ours, theirs = open_terminal()
     with subprocess.Popen([sys.executable, '-c', program], stdout=subprocess.DEVNULL,
                           stderr=theirs, env=dict(os.environ, PYTHONPATH=str(SOURCE))):
         os.close(theirs)

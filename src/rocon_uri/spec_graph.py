@@ -54,7 +54,7 @@ def spec_graph(spec_index: SpecIndex, rapps: Mapping[str, Rapp]) -> SpecGraph:
     :returns: `SpecGraph`
 
     >>> from capabilities.spec_index import SpecIndex
-    >>> from rocon_uri.rapp import rapp_from_string
+    >>> from rocon_uri.apps.rapp import rapp_from_string
     >>> dance = rapp_from_string('required_capabilities: [{name: ours/Legs}]', 'ours/dance')
     >>> sorted(spec_graph(SpecIndex(), {'ours/dance': dance}).nodes.items())
     [('#ours/dance', Node(name='ours/dance', kind='virtual app')), \

@@ -157,7 +157,7 @@ def rapp_from_string(content: Union[str, bytes], name: str, path: str = '<string
     >>> rapp_from_string('display: [Dance]', 'ours/dance', 'dance.rapp')
     Traceback (most recent call last):
         ...
-    rocon_uri.rapp.InvalidRapp: dance.rapp:1:10: display is a list, expected text
+    rocon_uri.apps.rapp.InvalidRapp: dance.rapp:1:10: display is a list, expected text
     """
     try:
         source = load(content, path)

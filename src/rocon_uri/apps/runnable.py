@@ -98,7 +98,7 @@ def runnable(rapp: Rapp, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
     :raises RoconURIValueError: if the robot's URI is not legal
 
     >>> from capabilities.discovery import SpecIndex
-    >>> from rocon_uri.rapp import rapp_from_string
+    >>> from rocon_uri.apps.rapp import rapp_from_string
     >>> dance = rapp_from_string('{compatibility: "rocon:/pr2", launch: d.launch}', 'ours/dance')
     >>> bool(runnable(dance, 'rocon:/pr2/bob', SpecIndex()))
     True

@@ -106,7 +106,7 @@ class Language:
     ``work`` is what matching has cost so far: one for each derivative that was not in the memo,
     and one for every four positions. Where several threads match at once it is approximate.
 
-    >>> from rocon_uri.regular_syntax import parse
+    >>> from rocon_uri.regular.syntax import parse
     >>> bob = Language('bob_?[0-9]*', parse('bob_?[0-9]*'))
     >>> bob.matches('bob_7'), bob.matches('bobby'), bob.example()
     (True, False, 'bob')

@@ -36,7 +36,7 @@ def common_name(one: Language, other: Language) -> Optional[str]:
     :returns: str, or ``None`` if there is none
     :raises PatternTooComplex: if that takes too much work to decide
 
-    >>> from rocon_uri.regular_syntax import parse
+    >>> from rocon_uri.regular.syntax import parse
     >>> common_name(Language('', parse('[a-e]+')), Language('', parse('.*[d-z]{2}')))
     'dd'
     """
@@ -55,7 +55,7 @@ def difference(one: Language, other: Language) -> Optional[str]:
     :returns: str, or ``None`` if all names of ``one`` are names of ``other``
     :raises PatternTooComplex: if that takes too much work to decide
 
-    >>> from rocon_uri.regular_syntax import parse
+    >>> from rocon_uri.regular.syntax import parse
     >>> difference(Language('', parse('(ab)*c')), Language('', parse('c?(abc)*')))
     'ababc'
     """
@@ -72,7 +72,7 @@ def includes(one: Language, other: Language) -> bool:
     :returns: bool
     :raises PatternTooComplex: if that takes too much work to decide
 
-    >>> from rocon_uri.regular_syntax import parse
+    >>> from rocon_uri.regular.syntax import parse
     >>> includes(Language('', parse('(ab)*a')), Language('', parse('a(ba){3}')))
     True
     """

@@ -38,8 +38,8 @@ class Walk:
 
     :param Language language: any
 
-    >>> from rocon_uri.regular_language import Language
-    >>> from rocon_uri.regular_syntax import parse
+    >>> from rocon_uri.regular.language import Language
+    >>> from rocon_uri.regular.syntax import parse
     >>> Walk(Language('bo*b', parse('bo*b'))).matches(['al', 'bob', 'bobby', 'boob'])
     [False, True, False, True]
     """

@@ -78,6 +78,7 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # dict[...] is not to be
         :returns: (int, int), line and column
         :raises KeyError: if it was not read
 
+        >>> from rocon_uri.sources.yaml_source import load
         >>> load('a: b', 'f').key_position('a')
         (1, 1)
         """
@@ -92,6 +93,7 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # dict[...] is not to be
         :returns: (int, int), line and column
         :raises KeyError: if it was not read
 
+        >>> from rocon_uri.sources.yaml_source import load
         >>> load('a: b', 'f').value_position('a')
         (1, 4)
         """
@@ -137,6 +139,7 @@ class YamlSequence(list):   # type: ignore[type-arg]
         :returns: (int, int), line and column
         :raises IndexError: if it was not read
 
+        >>> from rocon_uri.sources.yaml_source import load
         >>> load('[a, b]', 'f').item_position(1)
         (1, 5)
         """

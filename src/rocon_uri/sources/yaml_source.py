@@ -17,7 +17,7 @@ with one `YamlError` that says where:
 >>> load('topics: [', 'laser.yaml')
 Traceback (most recent call last):
     ...
-rocon_uri.yaml_source.YamlError: laser.yaml:2:1: did not find expected node content while \
+rocon_uri.sources.yaml_data.YamlError: laser.yaml:2:1: did not find expected node content while \
 parsing a flow node
 
 What a text may cost is bounded: 1 MiB of text, collections nested 100 deep, and 1 MiB that aliases
