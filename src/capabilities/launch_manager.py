@@ -1,0 +1,351 @@
+"""
+The launch manager: starts the launch files of capability providers, and ends them.
+
+Each runs in a process of its own (`capabilities.launch`). The nodelet manager is one of them,
+and a provider without a launch file has a placeholder that does nothing. Who is given as
+listener is told what happens; nothing is published here, and rospy is not needed.
+"""
+import itertools
+import logging
+import os
+import shutil
+import sys
+import threading
+import time
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Tuple
+
+from capabilities.launch import Launch, Report
+from capabilities.processes import Marked, ServerRun, Watcher, end_marked
+
+if TYPE_CHECKING:
+    from typing import Protocol
+
+    from capabilities.specs.provider import CapabilityProvider
+
+    class LaunchListener(Protocol):
+        """Who is told what happens to the launches, in threads of theirs."""
+
+        def launch_reported(self, pid: int, report: Report) -> None:
+            """A node died or was restarted, or the launch file has started its nodes."""
+
+        def launch_ended(self, pid: int, exit_code: int, text: str) -> None:
+            """All processes of a launch are gone: the last call for that id."""
+
+        def nodelet_manager_ended(self, pid: int, exit_code: int, text: str) -> None:
+            """The same for the nodelet manager."""
+
+__all__ = ['LaunchManager', 'which']
+
+_special_nodelet_manager_capability = '!!nodelet_manager'   # its name in events
+_MANAGER_ARGUMENT = 'capability_server_nodelet_manager_name'
+_MANAGER_LAUNCH_FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                                    'nodelet_manager.launch')
+_INTERRUPT_SECONDS = 5.0    # at the end of the server: from SIGINT to SIGTERM
+_TERMINATE_SECONDS = 2.0    # from SIGTERM to SIGKILL
+_LOG = logging.getLogger('rosout')      # rospy's own once a node is initialised
+
+
+def which(program: str) -> Optional[str]:
+    """
+    Find an executable.
+
+    :param str program: its name, looked for on the PATH, or its path
+    :returns: str, its path; None where there is none
+
+    >>> which('no_such_program') is None
+    True
+    """
+    return shutil.which(program)
+
+
+class LaunchManager:
+    """
+    Starts launch files, knows them by the id of their process, and ends them.
+
+    :param bool quiet: read the output of the launch files and write it to stdout; else they write
+        to the stdout of this process themselves
+    :param bool screen: show the output of all nodes
+    :param str nodelet_manager_name: the base name of the nodelet manager; by default that of this
+        node and ``_nodelet_manager``
+    :param listener: is told what happens: methods ``launch_reported(pid, report)``,
+        ``launch_ended(pid, exit_code, text)`` and ``nodelet_manager_ended(pid, exit_code, text)``
+    :param ServerRun run: marks all processes, and has a watcher end them if this process dies;
+        None does neither
+    :param bool nodelet_manager: False starts no nodelet manager
+    :raises OSError: if a process cannot be started
+
+    >>> manager = LaunchManager(nodelet_manager=False)
+    >>> manager.nodelet_manager_name
+    '/capability_server_nodelet_manager'
+    >>> manager.stop()
+    """
+
+    def __init__(self, quiet: bool = False, screen: bool = False,
+                 nodelet_manager_name: Optional[str] = None, *,
+                 listener: 'Optional[LaunchListener]' = None, run: Optional[ServerRun] = None,
+                 nodelet_manager: bool = True) -> None:
+        self.__quiet = quiet
+        self.__screen = screen
+        self.__listener = listener
+        self.__run = run
+        self.__lock = threading.Lock()      # held while a process is created, for no other wait
+        self.__launches: Dict[int, Launch] = {}
+        self.__ids = itertools.count(1)
+        self.__stopping = False
+        self.__interrupted: Optional[float] = None      # when the end began, by the monotonic clock
+        self.__namespace, node = _node_name()
+        self.__manager_name = _joined(self.__namespace,
+                                      nodelet_manager_name or node + '_nodelet_manager')
+        self.__manager_pid: Optional[int] = None
+        self.__has_manager = nodelet_manager and _nodelet_is_installed()
+        self.__watcher = Watcher(run) if run is not None else None
+        self.start_nodelet_manager()
+
+    @property
+    def nodelet_manager_name(self) -> str:
+        """The name of the nodelet manager with its namespace, also where none is started."""
+        return self.__manager_name
+
+    @property
+    def has_nodelet_manager(self) -> bool:
+        """Is a nodelet manager wanted, and package nodelet installed?"""
+        return self.__has_manager
+
+    @property
+    def nodelet_manager_pid(self) -> Optional[int]:
+        """The id of the process of the nodelet manager; None where it does not run."""
+        return self.__manager_pid
+
+    @property
+    def stopping(self) -> bool:
+        """Has the end begun? Nothing is started any more then."""
+        return self.__stopping
+
+    def run_capability_provider(self, provider: 'CapabilityProvider', provider_path: str,
+                                on_pid: Optional[Callable[[int], None]] = None) -> int:
+        """
+        Start what runs a provider.
+
+        :param provider: the spec of the provider
+        :param str provider_path: the path of the file of the spec
+        :param on_pid: called with the id before the listener is told anything about it
+        :returns: int, the id of the process
+        :raises RuntimeError: if the launch file runs already, if it cannot be started, or if the
+            end has begun
+        """
+        launch_file = None
+        if provider.launch_file is None:
+            _LOG.info("provider '%s' has no launch file, so a placeholder runs in its place",
+                      provider.name)
+        else:
+            launch_file = os.path.join(os.path.dirname(provider_path), provider.launch_file)
+        return self.run_launch_file(launch_file, provider, on_pid=on_pid)
+
+    def run_launch_file(self, launch_file: Optional[str], provider: 'CapabilityProvider',
+                        manager: bool = False,
+                        on_pid: Optional[Callable[[int], None]] = None) -> int:
+        """
+        Start a launch file.
+
+        :param str launch_file: its path; None runs the placeholder
+        :param provider: the spec of the provider
+        :param bool manager: is it that of the nodelet manager?
+        :param on_pid: called with the id before the listener is told anything about it
+        :returns: int, the id of the process
+        :raises RuntimeError: if it runs already, if it cannot be started, or if the end has begun
+        """
+        return self.__start(launch_file, manager, on_pid)
+
+    def start_nodelet_manager(self) -> Optional[int]:
+        """
+        Start the nodelet manager, unless it runs or is not wanted.
+
+        :returns: int, the id of its process; None where it is not wanted
+        :raises RuntimeError: if it cannot be started, or if the end has begun
+        """
+        if self.__has_manager and self.__manager_pid is None:
+            self.__start(_MANAGER_LAUNCH_FILE, True, None)
+        return self.__manager_pid
+
+    def begin_stop(self, pid: int) -> None:
+        """
+        Ask a launch to stop; the listener is told when it has.
+
+        Its nodes get the time that roslaunch gives them. What is left 5 s after that is killed.
+
+        :param int pid: the id of its process
+        :raises RuntimeError: if there is no such launch
+        """
+        self.__launch(pid).begin_stop()
+
+    def stop_capability_provider(self, pid: int) -> None:
+        """
+        Stop a launch, and wait until it has ended.
+
+        :param int pid: the id of its process
+        :raises RuntimeError: if there is no such launch
+        """
+        self.__stop_by_pid(pid)
+
+    def __stop_by_pid(self, pid: int) -> None:
+        launch = self.__launch(pid)
+        launch.begin_stop()
+        launch.join()
+
+    def stop(self) -> None:
+        """Stop all launches at once, the nodelet manager after them, and wait for that."""
+        with self.__lock:
+            self.__stopping = True
+            manager_pid = self.__manager_pid
+            launches = dict(self.__launches)
+        manager = launches.pop(manager_pid, None) if manager_pid is not None else None
+        _stop_all(list(launches.values()))
+        _stop_all([manager] if manager is not None else [])
+        if self.__watcher is not None:
+            self.__watcher.close()
+
+    def begin_end(self) -> None:
+        """Begin what `end` does, and return at once: nothing starts any more, SIGINT is sent."""
+        with self.__lock:
+            if self.__interrupted is not None:
+                return
+            self.__stopping = True
+            self.__interrupted = time.monotonic()
+            launches = list(self.__launches.values())
+        for launch in launches:
+            launch.interrupt()
+
+    def end(self) -> None:
+        """
+        End everything at once, with the short times of the end of the server, and wait for that.
+
+        SIGINT goes to each roslaunch, which passes it on; after 5 s SIGTERM to all processes of
+        this run, after 7 s SIGKILL until nothing is found. Without a mark this is `stop`.
+        """
+        run = self.__run
+        if run is None:
+            self.stop()
+            return
+        self.begin_end()
+        assert self.__interrupted is not None
+        deadline = self.__interrupted + _INTERRUPT_SECONDS
+        launches = self.__all()
+        for launch in launches:
+            launch.join(max(0.0, deadline - time.monotonic()))
+
+        def is_of_run(process: Marked) -> bool:
+            return (process.server, process.run) == run
+
+        end_marked(is_of_run, interrupt=None, terminate=_TERMINATE_SECONDS)
+        for launch in launches:
+            launch.join(1.0)
+        if self.__watcher is not None:
+            self.__watcher.close()
+
+    def handle_capability_events(self, msg: object) -> None:
+        """
+        Do nothing: launches are known to have ended by their processes, not by messages.
+
+        :param msg: a ``capabilities/CapabilityEvent``
+        """
+
+    def __monitor_process(self, pid: int) -> None:
+        """Wait until a launch has ended; its own thread tells of it."""
+        with self.__lock:
+            launch = self.__launches.get(pid)
+        if launch is None:
+            raise RuntimeError("Unknown process id '%s'" % pid)
+        launch.join()
+
+    def __launch(self, pid: int) -> Launch:
+        with self.__lock:
+            if pid not in self.__launches:
+                raise RuntimeError("No running launch file with PID of '%s'" % pid)
+            return self.__launches[pid]
+
+    def __all(self) -> List[Launch]:
+        with self.__lock:
+            return list(self.__launches.values())
+
+    def __start(self, file: Optional[str], manager: bool,
+                on_pid: Optional[Callable[[int], None]]) -> int:
+        """Start a launch file or the placeholder, and have it watched."""
+        namespace, _, base_name = self.__manager_name.rpartition('/')
+        environment = dict(os.environ, ROS_NAMESPACE=namespace if manager else self.__namespace)
+        argument = '%s:=%s' % (_MANAGER_ARGUMENT, base_name if manager else self.__manager_name)
+        with self.__lock:
+            if self.__stopping:
+                raise RuntimeError('the capability server ends')
+            self.__check_not_running(file)
+            try:
+                launch = Launch(file, [argument], screen=self.__screen, quiet=self.__quiet,
+                                environment=environment, run=self.__run, name=str(next(self.__ids)))
+            except OSError as error:
+                raise RuntimeError("cannot start '%s': %s" % (
+                    file or 'the placeholder', error.strerror or error)) from None
+            pid = launch.pid
+            self.__launches[pid] = launch
+            if manager:
+                self.__manager_pid = pid
+        if on_pid is not None:
+            on_pid(pid)
+        launch.watch(lambda report: self.__reported(pid, report),
+                     lambda exit_code, text: self.__ended(pid, exit_code, text))
+        return pid
+
+    def __check_not_running(self, file: Optional[str]) -> None:
+        if file is not None and os.path.realpath(file) in [
+                os.path.realpath(launch.file) for launch in self.__launches.values()
+                if launch.file is not None]:
+            raise RuntimeError("Launch file at '%s' is already running." % file)
+
+    def __reported(self, pid: int, report: Report) -> None:
+        if self.__listener is not None:
+            self.__listener.launch_reported(pid, report)
+
+    def __ended(self, pid: int, exit_code: int, text: str) -> None:
+        with self.__lock:
+            launch = self.__launches.pop(pid)
+            is_manager = pid == self.__manager_pid
+            if is_manager:
+                self.__manager_pid = None
+        if is_manager and not self.__stopping and not launch.stopping:
+            _LOG.error("Capability server's nodelet manager terminated unexpectedly.")
+        if self.__listener is not None:
+            (self.__listener.nodelet_manager_ended if is_manager
+             else self.__listener.launch_ended)(pid, exit_code, text)
+
+
+def _stop_all(launches: List[Launch]) -> None:
+    """Stop launches at once, and wait for their end."""
+    for launch in launches:
+        launch.begin_stop()
+    for launch in launches:
+        launch.join()
+
+
+def _node_name() -> Tuple[str, str]:
+    """Namespace and base name of this node; without one, those that the server would have."""
+    rospy: Any = sys.modules.get('rospy')
+    if rospy is not None and rospy.core.is_initialized():
+        namespace, _, base_name = rospy.get_name().rpartition('/')
+        return namespace or '/', base_name
+    return os.environ.get('ROS_NAMESPACE') or '/', 'capability_server'
+
+
+def _joined(namespace: str, name: str) -> str:
+    """A name below a namespace, with a leading slash."""
+    return name if name.startswith('/') else '/' + '/'.join(
+        [part for part in namespace.split('/') if part] + [name])
+
+
+def _nodelet_is_installed() -> bool:
+    """Is there a nodelet manager that could be started? Warns where there is none."""
+    try:
+        import roslib.packages
+        if roslib.packages.find_node('nodelet', 'nodelet'):
+            return True
+    except Exception:       # without roslib or the package, and whatever a broken workspace raises
+        pass
+    _LOG.warning('package nodelet is not installed, so no nodelet manager is started')
+    return False

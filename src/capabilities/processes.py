@@ -1,0 +1,368 @@
+"""
+Processes that belong to a run of the capability server: marked, found and ended.
+
+Whatever the server starts carries a mark in its environment, which children inherit. So what
+is left over can be found in ``/proc``, however often it forked and whoever its parent is now.
+Nothing but the standard library is imported: run by its path, with ``python3 -I -S``, this
+module is the watcher, a small process that outlives the server and ends what it left.
+"""
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from typing import Callable, Dict, Iterable, List, NamedTuple, Optional, Set
+
+__all__ = ['MARK', 'Marked', 'ServerRun', 'Watcher', 'end_leftovers', 'end_marked', 'exit_code',
+           'exit_text', 'find_marked', 'kill_marked']
+
+MARK = 'CAPABILITY_SERVER_MARK'         # the environment variable: server, run and launch
+_ENVIRONMENT_LIMIT = 8 << 20            # bytes that are read; Linux allows about 6 MiB
+_POLL = 0.05                            # seconds between two looks at /proc
+_UNKILLABLE = 10.0                      # seconds after which SIGKILL is not repeated
+
+
+class ServerRun(NamedTuple):
+    """
+    One run of a capability server.
+
+    >>> run = ServerRun('/capability_server@http://localhost:11311', '17-4711-c0ffee')
+    >>> run.mark('3')
+    '/capability_server@http://localhost:11311 17-4711-c0ffee 3'
+    """
+
+    server: str     # NODE NAME@ROS_MASTER_URI: the same for each run of that server
+    run: str        # different for each run; tells whether the server still lives
+
+    @classmethod
+    def new(cls, node_name: str, master_uri: str) -> 'ServerRun':
+        """
+        The run of a server that is this process.
+
+        :param str node_name: the resolved name of its node
+        :param str master_uri: the URI of its master
+        :returns: `ServerRun`, with an id that no other run has
+        """
+        process = _Process.read(os.getpid())
+        started = process.started if process else 0
+        return cls('@'.join((node_name, master_uri)).replace(' ', '%20'),
+                   '%d-%d-%s' % (os.getpid(), started, os.urandom(4).hex()))
+
+    def mark(self, launch: str) -> str:
+        """
+        What the environment of one launch says.
+
+        :param str launch: an id of the launch, without blanks
+        :returns: str, the value of the variable `MARK`
+        """
+        return '%s %s %s' % (self.server, self.run, launch)
+
+    def is_alive(self) -> bool:
+        """
+        Is the process of this server still there?
+
+        :returns: bool
+        """
+        pid, _, rest = self.run.partition('-')
+        process = _Process.read(int(pid)) if pid.isdigit() else None
+        return process is not None and rest.partition('-')[0] == str(process.started)
+
+
+class _Process(NamedTuple):
+    """What /proc/PID/stat says of a process that has not ended."""
+
+    parent: int
+    group: int
+    started: int    # clock ticks since the machine started
+
+    @classmethod
+    def read(cls, pid: int) -> 'Optional[_Process]':
+        """The process of that id, None where it is not there or has ended."""
+        try:
+            with open('/proc/%d/stat' % pid, 'rb') as stream:
+                fields = stream.read().rpartition(b')')[2].split()
+            if fields[0] in b'ZXx':
+                return None
+            return cls(int(fields[1]), int(fields[2]), int(fields[19]))
+        except (OSError, IndexError, ValueError):
+            return None
+
+
+class Marked(NamedTuple):
+    """A process that carries a mark."""
+
+    pid: int
+    parent: int
+    group: int
+    server: str
+    run: str
+    launch: str
+
+    @property
+    def command(self) -> str:
+        """Its command line, at most 200 characters of it; '' where it has ended."""
+        try:
+            with open('/proc/%d/cmdline' % self.pid, 'rb') as stream:
+                return ' '.join(stream.read(200).decode(errors='replace').split('\0')).strip()
+        except OSError:
+            return ''
+
+
+Wanted = Callable[[Marked], bool]
+
+
+def find_marked(wanted: Wanted) -> Dict[int, Marked]:
+    """
+    The processes of this user that carry a mark; this process is not among them.
+
+    :param wanted: called with a `Marked`, tells whether it is meant
+    :returns: dict of `Marked` by process id
+
+    >>> find_marked(lambda process: process.server == '/nobody@http://localhost:1')
+    {}
+    """
+    user = os.geteuid()
+    found = {}
+    with os.scandir('/proc') as entries:
+        for entry in entries:
+            try:
+                if not entry.name.isdigit() or entry.stat().st_uid != user:
+                    continue
+                with open(entry.path + '/environ', 'rb') as stream:
+                    mark = _mark(stream.read(_ENVIRONMENT_LIMIT))
+            except OSError:         # it has ended, or may not be looked at
+                continue
+            pid = int(entry.name)
+            process = _Process.read(pid) if mark and pid != os.getpid() else None
+            if process is not None:
+                marked = Marked(pid, process.parent, process.group, *mark)
+                if wanted(marked):
+                    found[pid] = marked
+    return found
+
+
+def _mark(environment: bytes) -> List[str]:
+    """The three parts of the mark in an environment; empty where it has none."""
+    name = MARK.encode() + b'='
+    if name in environment:         # nearly always it is not: a search is cheaper than a split
+        for entry in environment.split(b'\0'):
+            if entry.startswith(name):
+                parts = entry[len(name):].decode(errors='replace').split(' ')
+                if len(parts) == 3:
+                    return parts
+    return []
+
+
+def send(pid: int, number: int) -> None:
+    """
+    Send a signal to a process, and to its group where it leads one.
+
+    :param int pid: the process; nothing happens where it has ended
+    :param int number: the signal
+    """
+    try:
+        if os.getpgid(pid) == pid != os.getpgrp():
+            os.killpg(pid, number)
+        else:
+            os.kill(pid, number)
+    except (ProcessLookupError, PermissionError):
+        pass
+
+
+def _send_all(found: Dict[int, Marked], pids: Iterable[int], number: int) -> None:
+    """Send a signal once to each of them: to the group, where its leader is among them."""
+    chosen = set(pids)
+    for pid in chosen:
+        group = found[pid].group
+        if group == pid or group not in chosen:
+            send(pid, number)
+
+
+def kill_marked(wanted: Wanted, seconds: float = _UNKILLABLE) -> bool:
+    """
+    Send SIGKILL to what carries a mark until nothing is found any more.
+
+    :param wanted: as of `find_marked`
+    :param float seconds: how long to try
+    :returns: bool, whether nothing is left
+
+    >>> kill_marked(lambda process: process.server == '/nobody@http://localhost:1')
+    True
+    """
+    return _repeat(wanted, seconds, lambda found: _send_all(found, found, signal.SIGKILL))
+
+
+def end_marked(wanted: Wanted, interrupt: Optional[float] = 5.0, terminate: float = 2.0,
+               settle: float = 0.0) -> bool:
+    """
+    End what carries a mark: SIGINT, SIGTERM, SIGKILL, each only if the one before did not do.
+
+    SIGINT goes to those whose parent is not among them: a roslaunch passes it on to its nodes.
+
+    :param wanted: as of `find_marked`
+    :param float interrupt: seconds from SIGINT to SIGTERM; None sends no SIGINT
+    :param float terminate: seconds from SIGTERM to SIGKILL
+    :param float settle: seconds for which nothing must be found
+    :returns: bool, whether nothing is left
+
+    >>> end_marked(lambda process: process.server == '/nobody@http://localhost:1')
+    True
+    """
+    seen: Set[int] = set()
+    terminated: Set[int] = set()
+
+    def send_interrupt(found: Dict[int, Marked]) -> None:
+        _send_all(found, [pid for pid, process in found.items()
+                          if pid not in seen and process.parent not in found], signal.SIGINT)
+        seen.update(found)
+
+    def send_terminate(found: Dict[int, Marked]) -> None:
+        _send_all(found, found.keys() - terminated, signal.SIGTERM)
+        terminated.update(found)
+
+    return (interrupt is not None and _repeat(wanted, interrupt, send_interrupt, settle)
+            or _repeat(wanted, terminate, send_terminate, settle)
+            or kill_marked(wanted))
+
+
+def _repeat(wanted: Wanted, seconds: float, action: Callable[[Dict[int, Marked]], None],
+            settle: float = 0.0) -> bool:
+    """
+    Do something with what is found, until nothing is or the time is over.
+
+    Nothing has to be found twice, and for ``settle`` seconds: a process that is just calling
+    exec shows no environment.
+    """
+    end = time.monotonic() + seconds
+    empty_since: Optional[float] = None
+    while True:
+        found = find_marked(wanted)
+        now = time.monotonic()
+        if found:
+            empty_since = None
+            action(found)
+            if now >= end:
+                return False
+        elif empty_since is not None and now - empty_since >= settle:
+            return True
+        elif empty_since is None:
+            empty_since = now
+        time.sleep(_POLL if found or settle else _POLL / 5)
+
+
+def end_leftovers(run: ServerRun, log: Callable[[str], None], wait: float = 8.0) -> int:
+    """
+    End what earlier runs of a server left behind.
+
+    A server of the same name that still lives has been thrown out by this one and ends what it
+    started itself, so it is given the time for that. Blocks for at most that time and 3 s.
+
+    :param ServerRun run: the run that begins
+    :param log: called with a line for each process that is ended
+    :param float wait: seconds to wait for servers that still live
+    :returns: int, how many processes were ended
+
+    >>> end_leftovers(ServerRun('/nobody@http://localhost:1', '17-4711-c0ffee'), print)
+    0
+    """
+    def is_leftover(process: Marked) -> bool:
+        return process.server == run.server and process.run != run.run
+
+    end = time.monotonic() + wait
+    found = find_marked(is_leftover)
+    while time.monotonic() < end and any(
+            ServerRun(process.server, process.run).is_alive() for process in found.values()):
+        time.sleep(2 * _POLL)
+        found = find_marked(is_leftover)
+    for process in found.values():
+        log('ending process %d, left by an earlier run of %s: %s' % (
+            process.pid, run.server.partition('@')[0], process.command))
+    if found:
+        end_marked(is_leftover, interrupt=2.0, terminate=1.0)
+    return len(found)
+
+
+def exit_code(returncode: int) -> int:
+    """
+    The exit code of a process as a shell tells it.
+
+    :param int returncode: as of `subprocess`, negative for a signal
+    :returns: int, 128 + n for signal n
+
+    >>> exit_code(5), exit_code(-9)
+    (5, 137)
+    """
+    return returncode if returncode >= 0 else 128 - returncode
+
+
+def exit_text(returncode: int) -> str:
+    """
+    How a process ended, in words.
+
+    :param int returncode: as of `subprocess`, negative for a signal
+    :returns: str
+
+    >>> exit_text(5), exit_text(-9)
+    ('exit 5', 'signal 9')
+    """
+    return 'exit %d' % returncode if returncode >= 0 else 'signal %d' % -returncode
+
+
+class Watcher:
+    """
+    A process that ends what carries the mark of a run as soon as the server is gone.
+
+    It hangs on a pipe that only the server holds open, so it notices any end. It is in a
+    session of its own and ignores SIGINT and SIGTERM, so that a Ctrl-C does not take it along.
+
+    :param ServerRun run: what it ends
+    :raises OSError: if it cannot be started
+    """
+
+    def __init__(self, run: ServerRun) -> None:
+        environment = {name: value for name, value in os.environ.items() if name != MARK}
+        self._process = subprocess.Popen(
+            [sys.executable, '-I', '-S', os.path.abspath(__file__)], stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
+            env=environment, cwd='/')
+        self._tell(json.dumps(run))
+
+    @property
+    def pid(self) -> int:
+        """The id of its process."""
+        return self._process.pid
+
+    def close(self) -> None:
+        """Let it end: the server has ended everything itself. Waits for it, at most 2 s."""
+        self._tell('done')
+        try:
+            assert self._process.stdin is not None
+            self._process.stdin.close()
+            self._process.wait(2.0)
+        except (OSError, subprocess.TimeoutExpired):
+            pass
+
+    def _tell(self, line: str) -> None:
+        try:
+            assert self._process.stdin is not None
+            self._process.stdin.write(line.encode() + b'\n')
+            self._process.stdin.flush()
+        except (OSError, ValueError):       # it was killed; the next run of the server cleans up
+            pass
+
+
+def _watch() -> None:
+    """Wait for the end of the pipe, then end what the server left."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
+    lines = sys.stdin.read().splitlines()
+    if lines:
+        run = ServerRun(*json.loads(lines[0]))
+        # A process that was just being started when the server was killed appears a little later.
+        settle = 0.0 if lines[1:] == ['done'] else 1.0
+        end_marked(lambda process: (process.server, process.run) == run, settle=settle)
+
+
+if __name__ == '__main__':
+    _watch()
