@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -300,7 +301,7 @@ def test_help_has_a_line_and_an_example_for_each_verb(capsys):
     main(['--help'])
     overview = capsys.readouterr().out
     for verb in VERBS:
-        assert '\n    %s ' % verb in overview
+        assert re.search(r'\n    %s\s' % verb, overview)
         main([verb, '--help'])
         described = capsys.readouterr().out
         assert '\n  rocon_uri %s' % verb in described

@@ -41,7 +41,8 @@ if TYPE_CHECKING:
 
 __all__ = ['main']
 
-VERBS = ('parse', 'check', 'match', 'fields', 'rules', 'platform', 'apps', 'specs')
+VERBS = ('parse', 'check', 'match', 'fields', 'rules', 'platform', 'apps', 'specs',
+         'capabilities')
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:

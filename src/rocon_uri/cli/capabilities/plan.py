@@ -1,0 +1,59 @@
+"""
+Say what a start of a capability would do, and start nothing.
+
+Examples:
+  rocon_uri capabilities plan std_capabilities/Navigation2D
+  rocon_uri capabilities plan std_capabilities/Navigation2D ours/slow_navigation
+
+Shows each capability in the order of starting, its provider, and which of them
+run already.
+
+Exit status: 0; 1 if it could not be started; 2 if there is no server to ask
+JSON: {"steps": [{"capability", "provider", "running": BOOL}, ...],
+"faults": [TEXT, ...], "errors": [ERROR, ...]}
+"""
+from __future__ import annotations
+
+from rocon_uri.cli.display import painter, print_json
+from rocon_uri.cli.given import say
+from rocon_uri.cli.packages import printable
+from rocon_uri.cli.running import capability_names
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from rocon_uri.cli.running import RunningServer
+
+__all__ = ['add_arguments', 'add_capability', 'main']
+
+
+def add_capability(parser: argparse.ArgumentParser) -> None:
+    """Let a verb take a capability."""
+    argument = parser.add_argument('capability', metavar='CAPABILITY', help='package/Name')
+    argument.completer = capability_names   # type: ignore[attr-defined]    # for argcomplete
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the verb takes."""
+    add_capability(parser)
+    parser.add_argument('provider', metavar='PROVIDER', nargs='?', default='',
+                        help='package/name (default: the default provider)')
+
+
+def main(server: RunningServer, args: argparse.Namespace) -> int:
+    """Do it, and return the exit status."""
+    plan = server.call('plan_capability', args.capability, args.provider)
+    steps = [{'capability': capability, 'provider': provider, 'running': running}
+             for capability, provider, running in zip(plan.capabilities, plan.providers,
+                                                      plan.running)]
+    if args.json:
+        print_json({'steps': steps, 'faults': list(plan.faults), 'errors': []})
+        return 1 if plan.faults else 0
+    paint = painter()
+    for step in steps:
+        print('%s %s by %s' % (
+            paint('runs  ', 'faint') if step['running'] else paint('starts', 'green'),
+            printable(step['capability']), printable(step['provider'])))
+    for fault in plan.faults:
+        say('rocon_uri: ' + printable(fault))
+    return 1 if plan.faults else 0

@@ -1,0 +1,77 @@
+"""
+Print what starts and ends, as it happens.
+
+Example:
+  rocon_uri capabilities watch
+
+A line for each event: the time, the event, the capability, its provider, the pid
+of its roslaunch. "terminated" without "stopped" before it was not asked for. Ends
+when it is interrupted, or when the server has gone.
+
+Exit status: 0 if the server has gone; 2 if there is none to ask
+JSON: one object a line: {"time": SECONDS, "event", "capability", "provider",
+"pid"}
+"""
+from __future__ import annotations
+
+import json
+import queue
+import time
+
+from rocon_uri.cli.display import painter
+from rocon_uri.cli.given import say
+from rocon_uri.cli.packages import printable
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from typing import Any, Dict
+    from rocon_uri.cli.running import RunningServer
+
+__all__ = ['add_arguments', 'main']
+
+_STYLES = {'launched': 'green', 'terminated': 'red'}
+_PATIENCE = 2.0     # seconds without a connection to the server, after which it has gone
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the verb takes: nothing of its own."""
+
+
+def main(server: RunningServer, args: argparse.Namespace) -> int:
+    """Do it, and return the exit status."""
+    import rospy
+    from capabilities.msg import CapabilityEvent
+    rospy.init_node('capabilities_watch', anonymous=True, disable_signals=True)
+    events: queue.Queue[Any] = queue.Queue()    # what is printed is printed by this thread
+    subscriber = rospy.Subscriber(server.name + '/events', CapabilityEvent, events.put)
+    try:
+        connected = time.monotonic()
+        while time.monotonic() - connected < _PATIENCE:
+            try:
+                _print_event(_as_json(events.get(timeout=0.5)), args.json)
+            except queue.Empty:
+                pass
+            if subscriber.get_num_connections():
+                connected = time.monotonic()
+    finally:
+        rospy.signal_shutdown('watched enough')
+    say('rocon_uri: capability server %s has gone' % server.name)
+    return 0
+
+
+def _as_json(event: Any) -> Dict[str, Any]:
+    stamp = event.header.stamp.to_sec()
+    return {'time': stamp or time.time(), 'event': event.type.strip('"'),
+            'capability': event.capability, 'provider': event.provider, 'pid': event.pid}
+
+
+def _print_event(event: Dict[str, Any], as_json: bool) -> None:
+    if as_json:
+        print(json.dumps(event), flush=True)
+        return
+    clock = time.strftime('%H:%M:%S', time.localtime(event['time']))
+    kind = painter()('%-12s' % printable(event['event']), _STYLES.get(event['event'], 'cyan'))
+    what = '%s by %s, pid %d' % (printable(event['capability']), printable(event['provider']),
+                                 event['pid']) if event['capability'] else ''
+    print(('%s  %s  %s' % (clock, kind, what)).rstrip(), flush=True)

@@ -1,0 +1,122 @@
+"""A capability server that runs, as the verbs ask it."""
+from __future__ import annotations
+
+import re
+
+from rocon_uri.sources.wording import quoted
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from typing import Any, List
+
+__all__ = ['Refused', 'RunningServer', 'Unreachable', 'add_server', 'capability_names']
+
+_TIMEOUT = 1.5      # seconds for the master, and for the server; a person waits no longer
+
+
+class Unreachable(Exception):
+    """There is no ROS, no master or no server; the text is one line."""
+
+
+class Refused(Exception):
+    """The server answered with an error; the text is that of the server."""
+
+
+def add_server(parser: argparse.ArgumentParser) -> None:
+    """Let a verb take ``--server``."""
+    parser.add_argument('--server', metavar='NAME', default='capability_server',
+                        help='the node name of the server (default: capability_server)')
+
+
+def capability_names(parsed_args: argparse.Namespace, **others: object) -> List[str]:
+    """What the shell offers for a CAPABILITY: the names that the server knows, if there is one."""
+    try:
+        server = RunningServer(parsed_args.server)
+        return [*server.call('get_interfaces').interfaces,
+                *server.call('get_semantic_interfaces', '').semantic_interfaces]
+    except (Unreachable, Refused):
+        return []
+
+
+class RunningServer:
+    """
+    The services of one capability server.
+
+    :param str name: the node name, which is resolved in the namespace of this process
+    :raises Unreachable: if it cannot be asked
+    """
+
+    def __init__(self, name: str) -> None:
+        try:
+            import rosgraph
+            import rospy
+            import capabilities.srv
+        except ImportError as error:
+            raise Unreachable('the capability server needs ROS, and %s is not there: '
+                              'is a workspace sourced?' % error.name) from None
+        self._rospy, self._types = rospy, capabilities.srv
+        if not rosgraph.names.is_legal_name(name):
+            raise Unreachable('%s is not the name of a node' % quoted(name))
+        #: str: the node name, absolute
+        self.name: str = rosgraph.names.script_resolve_name('rocon_uri', name)
+        self._reach()
+
+    def _reach(self) -> None:
+        import socket
+        import rosgraph
+        before = socket.getdefaulttimeout()
+        socket.setdefaulttimeout(_TIMEOUT)      # of what the master is asked, which has none
+        try:
+            master = rosgraph.Master('/rocon_uri')
+            services = master.getSystemState()[2]
+        except (OSError, rosgraph.MasterException):
+            raise Unreachable('no ROS master answers at %s' % rosgraph.get_master_uri()) from None
+        finally:
+            socket.setdefaulttimeout(before)
+        marker = '/start_capability'
+        servers = [service[:-len(marker)] for service, _ in services if service.endswith(marker)]
+        if self.name not in servers:
+            others = ', '.join(map(quoted, servers[:5]))
+            raise Unreachable('no capability server %s%s' % (
+                quoted(self.name), '; there is %s (--server)' % others if servers else
+                ' runs: rosrun capabilities capability_server'))
+        try:
+            self._rospy.wait_for_service(self.name + marker, timeout=_TIMEOUT)
+        except self._rospy.ROSException:
+            raise Unreachable('capability server %s does not answer' % quoted(self.name)) from None
+
+    def call(self, service: str, *request: object) -> Any:
+        """
+        Ask one of its services.
+
+        :param str service: its name below that of the node
+        :param request: the fields of the request, in order
+        :returns: the response
+        :raises Refused: if the server answers with an error
+        :raises Unreachable: if it cannot be asked any more
+        """
+        type_name = ''.join(word.capitalize() for word in service.split('_'))
+        proxy = self._rospy.ServiceProxy('%s/%s' % (self.name, service),
+                                         getattr(self._types, type_name))
+        try:
+            return proxy(*request)
+        except self._rospy.ServiceException as error:
+            text = _error_text(str(error))
+            if text is None:
+                raise Unreachable('capability server %s does not answer: %s' % (
+                    quoted(self.name), error)) from None
+            raise Refused(text) from None
+
+
+def _error_text(text: str) -> 'str | None':
+    """What a service said, of what rospy makes of it; None where it said nothing."""
+    match = re.fullmatch(r'service \[.*?\] responded with an error: (?:b(?P<q>[\'"]))?'
+                         r'(?:error processing request: )?(.*?)(?(q)(?P=q))', text, re.DOTALL)
+    if match is None:
+        return None
+    said = match.group(2)
+    if match.group('q'):        # the repr of bytes
+        said = said.encode('latin-1', 'replace').decode('unicode_escape')
+        said = said.encode('latin-1', 'replace').decode('utf-8', 'replace')
+    return ' '.join(said.split())
