@@ -179,6 +179,23 @@ def _send_all(found: Dict[int, Marked], pids: Iterable[int], number: int) -> Non
             send(pid, number)
 
 
+def _kill_all(found: Dict[int, Marked]) -> None:
+    """
+    Send SIGKILL to the groups of these processes.
+
+    Their groups hold nothing else, since each launch begins a session. A process that forks
+    faster than anybody can look is only caught by its group.
+    """
+    for process in found.values():
+        try:
+            if process.group == os.getpgrp():
+                os.kill(process.pid, signal.SIGKILL)
+            else:
+                os.killpg(process.group, signal.SIGKILL)
+        except (ProcessLookupError, PermissionError):
+            pass
+
+
 def kill_marked(wanted: Wanted, seconds: float = _UNKILLABLE) -> bool:
     """
     Send SIGKILL to what carries a mark until nothing is found any more.
@@ -190,7 +207,7 @@ def kill_marked(wanted: Wanted, seconds: float = _UNKILLABLE) -> bool:
     >>> kill_marked(lambda process: process.server == '/nobody@http://localhost:1')
     True
     """
-    return _repeat(wanted, seconds, lambda found: _send_all(found, found, signal.SIGKILL))
+    return _repeat(wanted, seconds, _kill_all)
 
 
 def end_marked(wanted: Wanted, interrupt: Optional[float] = 5.0, terminate: float = 2.0,

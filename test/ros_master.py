@@ -1,0 +1,88 @@
+"""A roscore of a test's own, on a port that is free, and nodes that fail as a test wants it."""
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+import xmlrpc.client
+
+from made_packages import make_package
+
+NODE = '''\
+#!%s
+"""Do what the arguments say: sleep SECONDS, exit CODE, kill SIGNAL, ignore, say TEXT."""
+import os, signal, sys, time
+words = iter(argument for argument in sys.argv[1:] if ':=' not in argument)
+for word in words:
+    if word == 'sleep':
+        time.sleep(float(next(words)))
+    elif word == 'exit':
+        sys.exit(int(next(words)))
+    elif word == 'kill':
+        os.kill(os.getpid(), int(next(words)))
+    elif word == 'ignore':
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    elif word == 'say':
+        print(next(words), flush=True)
+''' % sys.executable
+
+
+class Master:
+    """
+    A roscore, and the environment of what talks to it.
+
+    Where it is used in a ``with`` statement it is there at its beginning and gone at its end.
+    """
+
+    def __init__(self, folder, *packages):
+        with socket.socket() as probe:
+            probe.bind(('127.0.0.1', 0))
+            self.port = probe.getsockname()[1]
+        self.uri = 'http://127.0.0.1:%d' % self.port
+        self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_IP='127.0.0.1',
+                                ROS_HOME=str(folder / 'ros_home'), ROS_LOG_DIR=str(folder / 'log'))
+        self.environment.pop('ROS_HOSTNAME', None)
+        self.environment.pop('ROS_NAMESPACE', None)
+        self.environment['ROS_PACKAGE_PATH'] = ':'.join(
+            [str(package) for package in packages]
+            + [os.environ.get('ROS_PACKAGE_PATH') or '/usr/share'])
+
+    def __enter__(self):
+        self._process = subprocess.Popen(
+            ['roscore', '-p', str(self.port)], env=self.environment, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL, start_new_session=True)
+        while not self._answers():
+            assert self._process.poll() is None, 'roscore does not start'
+            time.sleep(0.05)
+        return self
+
+    def __exit__(self, *error):
+        self._process.send_signal(signal.SIGINT)
+        try:
+            self._process.wait(30)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+
+    def _answers(self):
+        """Is the master there, and rosout, which is the last to come?"""
+        try:
+            return xmlrpc.client.ServerProxy(self.uri).lookupNode('/test', '/rosout')[0] == 1
+        except OSError:
+            return False
+
+
+def make_test_nodes(workspace):
+    """Write the package test_nodes, whose node does what its arguments say."""
+    path = make_package(workspace, 'test_nodes') / 'node'
+    path.write_text(NODE)
+    path.chmod(0o755)
+
+
+def node(name, args, more=''):
+    """The line of a launch file that runs a node of test_nodes."""
+    return '<node pkg="test_nodes" type="node" name="%s" args="%s" %s/>' % (name, args, more)
