@@ -186,7 +186,7 @@ class TestPackageIndex:
         [error] = errors
         assert isinstance(error, PackageError)
         assert (error.file_name, error.line, error.column) == (str(manifest), line, column)
-        assert problem in error.msg
+        assert problem in error.problem
         assert '\n' not in str(error)
         assert str(error) in caplog.text
 

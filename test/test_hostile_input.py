@@ -354,7 +354,7 @@ def test_packages_that_change_while_they_are_checked(workspace):
     with while_changing(folder / 'peep.rapp', texts):
         for _ in range(50):
             for finding in check_packages([str(workspace)]):
-                assert finding.file.endswith(('bad/peep.rapp', 'bad/package.xml'))
+                assert finding.file_name.endswith(('bad/peep.rapp', 'bad/package.xml'))
             rapps, _ = rapps_from_package_index(package_index_from_package_path(str(workspace)))
             assert 'good/look' in rapps
 

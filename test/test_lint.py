@@ -68,16 +68,17 @@ def test_the_workspaces_of_this_repository_are_clean(folder):
 @needs_corpus
 def test_in_the_corpus_only_what_is_really_wrong_is_found():
     findings = check_packages([CORPUS])
-    others = [finding for finding in findings if not finding.text.endswith('does not exist')]
+    others = [finding for finding in findings if not finding.problem.endswith('does not exist')]
     assert [(finding.severity, finding.line, finding.column) for finding in others] == [
         (WARNING, 18, 9),       # a description that is there twice
         (ERROR, 11, 19),        # kinect_rgbd_sensor, which is called rgbd_sensor
         (WARNING, 16, 5)]       # image_color/compressed, below a topic of the interface
     missing = [finding for finding in findings if finding not in others]
-    assert {finding.severity for finding in missing if finding.text.startswith('icon')} == {WARNING}
-    assert {finding.severity for finding in missing if 'launch file' in finding.text} == {ERROR}
-    assert [finding.text for finding in missing
-            if not finding.text.startswith(('icon', 'launch file'))] == [
+    assert {finding.severity for finding in missing
+            if finding.problem.startswith('icon')} == {WARNING}
+    assert {finding.severity for finding in missing if 'launch file' in finding.problem} == {ERROR}
+    assert [finding.problem for finding in missing
+            if not finding.problem.startswith(('icon', 'launch file'))] == [
         "preferred provider 'create_capabilities/create_differential_mobile_base' does not exist"]
 
 

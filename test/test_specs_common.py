@@ -161,7 +161,7 @@ def test_odd_specs_are_loaded_with_a_warning(kind, text, warning, caplog):
     assert [(record.name, record.getMessage()) for record in caplog.records] == [
         ('capabilities.specs', 'f.yaml:' + warning)]
     assert spec.warnings[0].file_name == 'f.yaml'
-    assert '%d:%d' % spec.warnings[0][2:] == warning.split(': ')[0]
+    assert '%d:%d' % spec.warnings[0].place == warning.split(': ')[0]
 
 
 def test_a_text_full_of_unknown_keys_gives_a_bounded_number_of_warnings():
@@ -267,5 +267,5 @@ def test_errors_share_a_base(kind):
 
 def test_a_warning_has_its_parts():
     warning = SpecWarning('odd', 'f.yaml', 3, 4)
-    assert (warning.msg, warning.file_name, warning.line, warning.column) == ('odd', 'f.yaml', 3, 4)
+    assert (warning.problem, warning.file_name, warning.place) == ('odd', 'f.yaml', (3, 4))
     assert str(warning) == 'f.yaml:3:4: odd'

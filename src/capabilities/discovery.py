@@ -32,7 +32,7 @@ from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import capability_interface_from_file_path
 from capabilities.specs.provider import capability_provider_from_file_path
 from capabilities.specs.semantic_interface import semantic_capability_interface_from_file_path
-from rocon_uri.sources.located import located
+from rocon_uri.sources.located import LocatedError
 from rocon_uri.sources.wording import quoted, quoted_path
 from rocon_uri.sources.yaml_data import MAX_SIZE
 from rocon_uri.sources.yaml_source import read_file
@@ -57,31 +57,16 @@ _IGNORE_MARKERS = frozenset(['AMENT_IGNORE', 'CATKIN_IGNORE', 'COLCON_IGNORE'])
 _logger = logging.getLogger('capabilities.discovery')
 
 
-class PackageError(Exception):
+class PackageError(LocatedError):
     """
     A package that is left out: there is one of that name already, or its manifest is at fault.
 
-    :param str msg: what is wrong, without the place
-    :param str file_name: its ``package.xml``
-    :param int line: where in it, counted from 1, or None where that is not known
-    :param int column: counted from 1, or None
-
-    The attributes have the names of the parameters.
+    Its attributes are those of `rocon_uri.sources.located.LocatedError`; ``file_name`` is its
+    ``package.xml``.
 
     >>> print(PackageError('no element found', 'a_package/package.xml', 3, 1))
     a_package/package.xml:3:1: no element found
     """
-
-    def __init__(self, msg: str, file_name: str, line: Optional[int] = None,
-                 column: Optional[int] = None) -> None:
-        super().__init__(msg, file_name, line, column)
-        self.msg = msg
-        self.file_name = file_name
-        self.line = line
-        self.column = column
-
-    def __str__(self) -> str:
-        return located(self.msg, self.file_name, self.line, self.column)
 
 
 def package_index_from_package_path(package_paths: Union[str, Iterable[str]],

@@ -11,17 +11,18 @@ It is usually made by `capabilities.discovery.spec_index_from_spec_file_index`.
 from __future__ import annotations
 
 from capabilities.specs.common import InvalidSpec
-from rocon_uri.sources.located import located
+from rocon_uri.sources.located import LocatedError
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted, quoted_path
-from rocon_uri.sources.yaml_data import YamlMapping
+from rocon_uri.sources.yaml_data import value_place
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Callable, Dict, Iterable, List, Optional, Tuple, TypeVar, Union
+    from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple, TypeVar, Union
 
     from capabilities.specs.interface import CapabilityInterface
     from capabilities.specs.provider import CapabilityProvider
     from capabilities.specs.semantic_interface import SemanticCapabilityInterface
+    from rocon_uri.sources.located import Place
 
     Spec = Union[CapabilityInterface, SemanticCapabilityInterface, CapabilityProvider]
     S = TypeVar('S')
@@ -30,38 +31,24 @@ if TYPE_CHECKING:
 __all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'SpecIndex']
 
 
-class _RefusedSpec(Exception):
-    """A spec that cannot be indexed; the two exceptions below say why."""
-
-    def __init__(self, msg: str, spec_name: str, package: str, spec_type: str, file_name: str,
-                 line: Optional[int] = None, column: Optional[int] = None) -> None:
-        super().__init__(msg, spec_name, package, spec_type, file_name, line, column)
-        self.msg = msg
-        self.spec_name = spec_name
-        self.package = package
-        self.spec_type = spec_type
-        self.file_name = file_name
-        self.line = line
-        self.column = column
-
-    def __str__(self) -> str:
-        return located(self._problem(), self.file_name, self.line, self.column)
-
-    def _problem(self) -> str:
-        return self.msg
-
-
-class DuplicateNameException(_RefusedSpec):
+class DuplicateNameException(LocatedError):
     """
     A spec whose name is taken. Specs of different kinds cannot share a name either.
 
-    Attributes: ``spec_name`` (str, ``package/name``), ``package`` (str), ``spec_type`` (str,
-    ``'interface'``, ``'semantic_interface'`` or ``'provider'``), ``msg`` (str, what is wrong),
-    ``file_name`` (str), and ``line`` and ``column`` (int, counted from 1, or None).
+    Attributes: those of `rocon_uri.sources.located.LocatedError`, and ``spec_name`` (str,
+    ``package/name``), ``package`` (str) and ``spec_type`` (str, ``'interface'``,
+    ``'semantic_interface'`` or ``'provider'``).
     """
 
+    def __init__(self, problem: str, file_name: str, line: Optional[int], column: Optional[int],
+                 spec_name: str, package: str, spec_type: str) -> None:
+        super().__init__(problem, file_name, line, column, spec_name, package, spec_type)
+        self.spec_name = spec_name
+        self.package = package
+        self.spec_type = spec_type
 
-class InterfaceNameNotFoundException(_RefusedSpec):
+
+class InterfaceNameNotFoundException(LocatedError):
     """
     A semantic interface or provider of an interface that is not there.
 
@@ -69,20 +56,29 @@ class InterfaceNameNotFoundException(_RefusedSpec):
     redefines or implements.
     """
 
-    def __init__(self, msg: str, spec_name: str, package: str, spec_type: str, file_name: str,
-                 line: Optional[int] = None, column: Optional[int] = None, interface: str = '',
-                 candidates: Callable[[], Iterable[str]] = tuple) -> None:
-        super().__init__(msg, spec_name, package, spec_type, file_name, line, column)
+    def __init__(self, problem: str, file_name: str, line: Optional[int], column: Optional[int],
+                 spec_name: str, package: str, spec_type: str, interface: str,
+                 candidates: 'Iterable[str] | Callable[[], Iterable[str]]' = ()) -> None:
+        super().__init__(problem, file_name, line, column, spec_name, package, spec_type, interface)
+        self.spec_name = spec_name
+        self.package = package
+        self.spec_type = spec_type
         self.interface = interface
         self._candidates = candidates
 
     @property
     def suggestions(self) -> List[str]:
         """The interfaces that were probably meant: a list of at most three str."""
-        return near_misses(self.interface, self._candidates())
+        candidates = self._candidates() if callable(self._candidates) else self._candidates
+        return near_misses(self.interface, candidates)
 
-    def _problem(self) -> str:
-        return self.msg + did_you_mean(self.suggestions)
+    @property
+    def sentence(self) -> str:
+        """The problem, and what was probably meant."""
+        return self.problem + did_you_mean(self.suggestions)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(self), (*self.args, self.suggestions)
 
 
 class SpecIndex:
@@ -211,8 +207,8 @@ class SpecIndex:
             raise InterfaceNameNotFoundException(
                 'semantic interface %s redefines %s, which is no interface that any package exports'
                 % (quoted(name), quoted(redefined)),
-                name, package_name, semantic_interface.spec_type, str(file_path),
-                *_position(semantic_interface, 'redefines'), redefined,
+                str(file_path), *_position(semantic_interface, 'redefines'),
+                name, package_name, semantic_interface.spec_type, redefined,
                 lambda: self.interface_names)
         semantic_interface.name = name
         self._semantic_interfaces[name] = semantic_interface, str(file_path)
@@ -236,8 +232,8 @@ class SpecIndex:
             raise InterfaceNameNotFoundException(
                 'provider %s implements %s, which is no interface that any package exports'
                 % (quoted(name), quoted(implemented)),
-                name, package_name, provider.spec_type, str(file_path),
-                *_position(provider, 'implements'), implemented,
+                str(file_path), *_position(provider, 'implements'),
+                name, package_name, provider.spec_type, implemented,
                 lambda: self.interface_names + self.semantic_interface_names)
         provider.name = name
         self._providers[name] = provider, str(file_path)
@@ -286,7 +282,7 @@ class SpecIndex:
                 raise DuplicateNameException(
                     '%s is the name of %s already, in %s' % (
                         quoted(name), kind, quoted_path(entries[name][1])),
-                    name, package_name, spec.spec_type, str(file_path), *_position(spec, 'name'))
+                    str(file_path), *_position(spec, 'name'), name, package_name, spec.spec_type)
         return name
 
 
@@ -298,8 +294,6 @@ def _paths(entries: Entries[S]) -> Dict[str, str]:
     return {name: path for name, (_, path) in entries.items()}
 
 
-def _position(spec: Spec, key: str) -> Tuple[Optional[int], Optional[int]]:
+def _position(spec: Spec, key: str) -> Place:
     """Where in its file a spec says this, if it was read from one."""
-    if isinstance(spec.source, YamlMapping) and key in spec.source:
-        return spec.source.value_position(key)
-    return None, None
+    return value_place(spec.source, key)

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import re
 
-from capabilities.specs.common import SpecName, SpecWarning, shown
+from capabilities.specs.common import SpecName, SpecWarning
 from rocon_uri.sources.ros_names import is_legal_base_name
-from rocon_uri.sources.wording import did_you_mean, near_misses
+from rocon_uri.sources.wording import did_you_mean, near_misses, shown
 from rocon_uri.sources.yaml_data import MAX_SIZE, YamlError, YamlMapping, YamlSequence
 from rocon_uri.sources.yaml_source import load, load_file
 

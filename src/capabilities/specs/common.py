@@ -7,27 +7,24 @@ kept in the spec's ``warnings``.
 """
 from __future__ import annotations
 
-from collections import namedtuple
+from dataclasses import dataclass
+from typing import Any, Dict, Optional, Tuple
 
+from rocon_uri.sources.located import Located, LocatedError
 from rocon_uri.sources.ros_names import is_legal_base_name
-from rocon_uri.sources.located import located
-from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.wording import quoted, shown
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Dict, Optional, Tuple
-
-__all__ = ['NO_DESCRIPTION', 'CapabilitySpec', 'InvalidSpec', 'SpecName', 'SpecWarning', 'shown',
+__all__ = ['NO_DESCRIPTION', 'CapabilitySpec', 'InvalidSpec', 'SpecName', 'SpecWarning',
            'split_spec_name', 'validate_spec_name']
 
 NO_DESCRIPTION = 'No description given.'
 
 
-class InvalidSpec(ValueError):
+class InvalidSpec(LocatedError, ValueError):
     """
     A capability spec that is not complete, or has an entry that cannot be used.
 
-    :param str msg: what is wrong, without the place
+    :param str problem: what is wrong, without the place
     :param str file_name: where the spec is from
     :param int line: where in it, counted from 1; ``None`` where it was no text
     :param int column: counted from 1, or ``None``
@@ -38,30 +35,29 @@ class InvalidSpec(ValueError):
     laser.yaml:12:5: topic 'scan' has no type
     """
 
-    def __init__(self, msg: str, file_name: str, line: Optional[int] = None,
-                 column: Optional[int] = None) -> None:
-        super().__init__(msg, file_name, line, column)
-        self.msg = msg
-        self.file_name = file_name
-        self.line = line
-        self.column = column
-
-    def __str__(self) -> str:
-        return located(self.msg, self.file_name, self.line, self.column)
+    @property
+    def msg(self) -> str:
+        """The same as ``problem``, as the specification calls the parameter."""
+        return self.problem
 
 
-class SpecWarning(namedtuple('SpecWarning', 'msg file_name line column')):
+@dataclass(frozen=True)
+class SpecWarning(Located):
     """
-    Something in a spec that is odd, and ignored. The fields are those of `InvalidSpec`.
+    Something in a spec that is odd, and ignored.
 
     >>> print(SpecWarning("unknown key 'colour'", 'laser.yaml', 3, 1))
     laser.yaml:3:1: unknown key 'colour'
     """
 
-    __slots__ = ()
-
-    def __str__(self) -> str:
-        return located(*self)
+    #: what is odd, without the place
+    problem: str
+    #: where the spec is from
+    file_name: str
+    #: where in it, counted from 1; None where it was no text
+    line: Optional[int] = None
+    #: counted from 1, or None
+    column: Optional[int] = None
 
 
 class SpecName(str):
@@ -179,21 +175,3 @@ class CapabilitySpec:
 
     def __repr__(self) -> str:
         return '<%s %s>' % (type(self).__name__, quoted(self.name))
-
-
-def shown(value: Any) -> str:
-    """What was found, for an error; short and safe whatever it is."""
-    if isinstance(value, str):
-        return quoted(value) if value else 'empty'
-    if value is None:
-        return 'empty'
-    if isinstance(value, bool):
-        return 'true' if value else 'false'
-    if isinstance(value, int) and int.bit_length(value) < 64:
-        return int.__repr__(value)
-    if isinstance(value, float):
-        return float.__repr__(value)
-    for kind, text in ((dict, 'a mapping'), ((list, tuple), 'a list'), (int, 'a large number')):
-        if isinstance(value, kind):
-            return text
-    return 'an object of type %s' % type(value).__name__

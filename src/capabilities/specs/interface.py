@@ -28,9 +28,9 @@ from __future__ import annotations
 
 from capabilities.specs._reading import (
     SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string, value_place)
-from capabilities.specs.common import NO_DESCRIPTION, CapabilitySpec, InvalidSpec, shown
+from capabilities.specs.common import NO_DESCRIPTION, CapabilitySpec, InvalidSpec
 from capabilities.specs.interface_sections import GROUPINGS, SECTIONS, Interface
-from rocon_uri.sources.wording import did_you_mean, near_misses
+from rocon_uri.sources.wording import did_you_mean, near_misses, shown
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -3,8 +3,7 @@ The sections of a capability interface: topics, services, actions and parameters
 """
 from __future__ import annotations
 
-from capabilities.specs.common import shown
-from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.wording import quoted, shown
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -16,8 +16,9 @@ from __future__ import annotations
 
 from capabilities.specs._reading import (
     SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string, value_place)
-from capabilities.specs.common import InvalidSpec, SpecName, shown
+from capabilities.specs.common import InvalidSpec, SpecName
 from capabilities.specs.remappings import RemappingSpec, read_remappings
+from rocon_uri.sources.wording import shown
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

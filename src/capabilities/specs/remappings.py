@@ -11,7 +11,8 @@ Providers and semantic interfaces have them, by kind:
 from __future__ import annotations
 
 from capabilities.specs._reading import SpecSource, key_place
-from capabilities.specs.common import CapabilitySpec, shown
+from capabilities.specs.common import CapabilitySpec
+from rocon_uri.sources.wording import shown
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -21,7 +21,8 @@ from __future__ import annotations
 import os
 from collections import namedtuple
 
-from capabilities.specs.common import InvalidSpec, shown
+from capabilities.specs.common import InvalidSpec
+from rocon_uri.sources.wording import shown
 from rocon_uri.sources.yaml_data import YamlError, YamlMapping, YamlSequence
 from rocon_uri.sources.yaml_source import load, read_file
 

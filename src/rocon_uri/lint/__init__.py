@@ -10,6 +10,7 @@ name exists.
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 
 from capabilities.discovery import package_index_from_package_path
 from rocon_uri.lint.checked_file import is_inside
@@ -19,8 +20,6 @@ from rocon_uri.lint.manifest import check_exports
 from rocon_uri.lint.rapp_files import check_rapp
 from rocon_uri.lint.spec_files import check_spec
 from rocon_uri.lint.surroundings import Surroundings
-from rocon_uri.sources.wording import did_you_mean
-from rocon_uri.sources.yaml_data import YamlError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -96,15 +95,13 @@ def _finding(fault: Any) -> Finding:
     if isinstance(fault, OSError):
         return Finding(_path(fault), None, None, ERROR,
                        'cannot be read: %s' % (fault.strerror or fault))
-    text = fault.problem if isinstance(fault, YamlError) else fault.msg
-    return Finding(_path(fault), fault.line, fault.column, ERROR,
-                   text + did_you_mean(getattr(fault, 'suggestions', ())))
+    return Finding(_path(fault), fault.line, fault.column, ERROR, fault.sentence)
 
 
 def _sorted(findings: Iterable[Finding]) -> List[Finding]:
     """Each finding once, by its place, with the path that is the shortest to read."""
     here = os.getcwd()
-    shown = {finding: os.path.relpath(finding.file) if is_inside(finding.file, here)
-             else finding.file for finding in findings}
-    return sorted({finding._replace(file=path): None for finding, path in shown.items()},
-                  key=lambda finding: (finding.file, finding.line or 0, finding.column or 0))
+    shown = {finding: os.path.relpath(finding.file_name)
+             if is_inside(finding.file_name, here) else finding.file_name for finding in findings}
+    return sorted({replace(finding, file_name=path): None for finding, path in shown.items()},
+                  key=lambda finding: (finding.file_name, finding.line or 0, finding.column or 0))

@@ -78,7 +78,7 @@ class CheckedFile:
         try:
             return load_file(self.path)
         except YamlError as error:
-            self.error(error.problem, (error.line, error.column))
+            self.error(error.problem, error.place)
         except OSError as error:
             self.error('cannot be read: %s' % (error.strerror or error))
         return None

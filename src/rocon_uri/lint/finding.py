@@ -1,13 +1,10 @@
-"""One thing that the linter has found, and the forms in which it is told."""
+"""One thing that the linter has found, and the forms in which it is shown."""
 from __future__ import annotations
 
-from collections import namedtuple
+from dataclasses import dataclass
+from typing import Dict, Optional, Union
 
-from rocon_uri.sources.located import located
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Dict
+from rocon_uri.sources.located import Located
 
 __all__ = ['ERROR', 'WARNING', 'Finding']
 
@@ -17,22 +14,30 @@ ERROR = 'error'
 WARNING = 'warning'
 
 
-class Finding(namedtuple('Finding', 'file line column severity text')):
+@dataclass(frozen=True)
+class Finding(Located):
     """
     What is wrong, and where.
-
-    - ``file``: str; ``line`` and ``column``: int from 1, ``None`` where it is in no one place
-    - ``severity``: `ERROR` or `WARNING`
-    - ``text``: str, one sentence without the place
 
     >>> print(Finding('dance.rapp', 3, 9, ERROR, "launch file 'dance.lanch' does not exist"))
     dance.rapp:3:9: error: launch file 'dance.lanch' does not exist
     """
 
-    __slots__ = ()
+    #: the file
+    file_name: str
+    #: where in it, counted from 1; None where it is in no one place
+    line: Optional[int]
+    #: counted from 1, or None
+    column: Optional[int]
+    #: `ERROR` or `WARNING`
+    severity: str
+    #: one sentence without the place
+    problem: str
 
-    def __str__(self) -> str:
-        return located('%s: %s' % (self.severity, self.text), self.file, self.line, self.column)
+    @property
+    def sentence(self) -> str:
+        """The problem, with its severity in front."""
+        return '%s: %s' % (self.severity, self.problem)
 
     def as_github(self) -> str:
         """
@@ -43,20 +48,21 @@ class Finding(namedtuple('Finding', 'file line column severity text')):
         >>> print(Finding('a,b.rapp', 3, 9, ERROR, '50% of it: no').as_github())
         ::error file=a%2Cb.rapp,line=3,col=9::50%25 of it: no
         """
-        properties = [('file', self.file), ('line', self.line), ('col', self.column)]
+        properties = [('file', self.file_name), ('line', self.line), ('col', self.column)]
         return '::%s %s::%s' % (
             self.severity,
             ','.join('%s=%s' % (name, _escaped(str(value), '%\r\n:,'))
                      for name, value in properties if value is not None),
-            _escaped(self.text, '%\r\n'))
+            _escaped(self.problem, '%\r\n'))
 
-    def as_json(self) -> Dict[str, Any]:
+    def as_json(self) -> Dict[str, Union[str, int, None]]:
         """
         The finding as plain data.
 
         :returns: dict with ``file``, ``line``, ``column``, ``severity`` and ``text``
         """
-        return dict(self._asdict())
+        return {'file': self.file_name, 'line': self.line, 'column': self.column,
+                'severity': self.severity, 'text': self.problem}
 
 
 def _escaped(text: str, characters: str) -> str:

@@ -34,7 +34,7 @@ def check_spec(spec: Any, path: str, package_folder: str,
     """
     file = CheckedFile(path, package_folder)
     for warning in spec.warnings:
-        file.warn(warning.msg, (warning.line, warning.column))
+        file.warn(warning.problem, warning.place)
     if spec.spec_type == 'interface':
         _check_interface(spec, file)
     elif spec.spec_type == 'provider':
@@ -69,7 +69,7 @@ def _check_semantic_interface(spec: SemanticCapabilityInterface, file: CheckedFi
     try:
         spec.resolve(surroundings.capabilities[spec.redefines])
     except InvalidSpec as error:
-        file.error(error.msg, (error.line, error.column))
+        file.error(error.problem, error.place)
 
 
 def _check_provider(spec: CapabilityProvider, file: CheckedFile,

@@ -1,18 +1,22 @@
-"""What says FILE:LINE:COLUMN: PROBLEM."""
+"""What says FILE:LINE:COLUMN: PROBLEM: errors, warnings and findings."""
 from __future__ import annotations
+
+from typing import Optional, Tuple
 
 from rocon_uri.sources.wording import printable
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Optional
+__all__ = ['NOWHERE', 'Located', 'LocatedError', 'Place', 'located']
 
-__all__ = ['located']
+#: A line and a column, counted from 1; ``None`` for both where they are not known.
+Place = Tuple[Optional[int], Optional[int]]
+
+#: the place of what is in no one place of its file
+NOWHERE: Place = (None, None)
 
 
 def located(problem: str, file_name: str, line: Optional[int], column: Optional[int]) -> str:
     """
-    A problem with the place that it is at in front, in the form that editors know.
+    A problem with its place in front, in the form that editors know.
 
     :param str problem: what is wrong
     :param str file_name: where the text is from
@@ -25,3 +29,54 @@ def located(problem: str, file_name: str, line: Optional[int], column: Optional[
     """
     place = file_name if line is None else '%s:%s:%s' % (file_name, line, column)
     return printable('%s: %s' % (place, problem))
+
+
+class Located:
+    """What all that says FILE:LINE:COLUMN: PROBLEM has in common; its ``str`` is that line."""
+
+    #: what is wrong, without the place
+    problem: str
+    #: where the text is from
+    file_name: str
+    #: where in it, counted from 1; None where that is not known
+    line: Optional[int]
+    #: counted from 1, or None
+    column: Optional[int]
+
+    @property
+    def sentence(self) -> str:
+        """The problem and what else there is to say, without the place."""
+        return self.problem
+
+    @property
+    def place(self) -> Place:
+        """The line and the column."""
+        return self.line, self.column
+
+    def __str__(self) -> str:
+        return located(self.sentence, self.file_name, self.line, self.column)
+
+
+class LocatedError(Located, Exception):
+    """
+    An error that knows its place. It can be pickled.
+
+    :param str problem: what is wrong, without the place
+    :param str file_name: where the text is from
+    :param int line: where in it, counted from 1; ``None`` where it is in no text
+    :param int column: counted from 1, or ``None``
+    :param more: further arguments of a subclass, which its ``__init__`` takes by position
+
+    The attributes have the names of the parameters.
+
+    >>> print(LocatedError("topic 'scan' has no type", 'laser.yaml', 12, 5))
+    laser.yaml:12:5: topic 'scan' has no type
+    """
+
+    def __init__(self, problem: str, file_name: str, line: Optional[int] = None,
+                 column: Optional[int] = None, *more: object) -> None:
+        super().__init__(problem, file_name, line, column, *more)
+        self.problem = problem
+        self.file_name = file_name
+        self.line = line
+        self.column = column

@@ -7,7 +7,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Iterable, List
 
-__all__ = ['did_you_mean', 'near_misses', 'printable', 'quoted', 'quoted_path']
+__all__ = ['did_you_mean', 'near_misses', 'printable', 'quoted', 'quoted_path', 'shown']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _NEAR_LENGTH = 64       # a longer text is nobody's typing error; bounds the cost of the search
@@ -85,3 +85,29 @@ def did_you_mean(suggestions: Iterable[str]) -> str:
     """
     meant = ' or '.join(map(quoted, suggestions))
     return ' (did you mean %s?)' % meant if meant else ''
+
+
+def shown(value: object) -> str:
+    """
+    A value that was read, as an error shows it: on one line, short and safe whatever it is.
+
+    :param value: anything
+    :returns: str
+
+    >>> print(shown('laser'), shown(''), shown(True), shown(7), shown(['laser']))
+    'laser' empty true 7 a list
+    """
+    if isinstance(value, str):
+        return quoted(value) if value else 'empty'
+    if value is None:
+        return 'empty'
+    if isinstance(value, bool):
+        return 'true' if value else 'false'
+    if isinstance(value, int) and int.bit_length(value) < 64:
+        return int.__repr__(value)
+    if isinstance(value, float):
+        return float.__repr__(value)
+    for kind, text in ((dict, 'a mapping'), ((list, tuple), 'a list'), (int, 'a large number')):
+        if isinstance(value, kind):
+            return text
+    return 'an object of type %s' % type(value).__name__

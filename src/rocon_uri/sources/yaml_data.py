@@ -2,16 +2,14 @@
 from __future__ import annotations
 
 import re
+from typing import Any, Dict, List, Optional, Tuple
 
-from rocon_uri.sources.located import located
+from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Dict, List, Optional, Tuple
+__all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'end_position',
+           'key_place', 'place_of', 'value_place']
 
-    Position = Tuple[int, int]
-
-__all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'end_position']
+Position = Tuple[int, int]
 
 MAX_SIZE = 2 ** 20      # bytes of a file, characters of a text, and what aliases may add
 MAX_DEPTH = 100         # collections in one another
@@ -19,30 +17,13 @@ MAX_DEPTH = 100         # collections in one another
 _split_lines = re.compile('\r\n|[\r\n\x85\u2028\u2029]').split
 
 
-class YamlError(ValueError):
+class YamlError(LocatedError, ValueError):
     """
-    A text that is not YAML, or more of it than is read.
-
-    :param str problem: what is wrong
-    :param str file_name: where the text is from
-    :param int line: where in it, counted from 1
-    :param int column: counted from 1
-
-    The attributes have the names of the parameters.
+    A text that is not YAML, or more of it than is read. Its attributes are those of `LocatedError`.
 
     >>> print(YamlError('nested deeper than 100', 'laser.yaml', 1, 101))
     laser.yaml:1:101: nested deeper than 100
     """
-
-    def __init__(self, problem: str, file_name: str, line: int, column: int) -> None:
-        super().__init__(problem, file_name, line, column)
-        self.problem = problem
-        self.file_name = file_name
-        self.line = line
-        self.column = column
-
-    def __str__(self) -> str:
-        return located(self.problem, self.file_name, self.line, self.column)
 
 
 class YamlMapping(dict):    # type: ignore[type-arg]    # dict[...] is not to be had in Python 3.8
@@ -151,3 +132,36 @@ def end_position(text: str) -> Position:
     """The line and column, counted from 1, at which this text ends."""
     lines = _split_lines(text)
     return len(lines), len(lines[-1]) + 1
+
+
+def place_of(collection: object) -> Place:
+    """Where a collection begins; `NOWHERE` if it was not read from a text."""
+    if isinstance(collection, (YamlMapping, YamlSequence)):
+        return collection.position
+    return NOWHERE
+
+
+def key_place(mapping: object, key: object) -> Place:
+    """Where a key stands; `NOWHERE` if it was not read from a text."""
+    try:
+        return mapping.key_position(key) if isinstance(mapping, YamlMapping) else NOWHERE
+    except KeyError:    # put in since
+        return NOWHERE
+
+
+def value_place(collection: object, key: Any) -> Place:
+    """
+    Where a value of a mapping, or an item of a sequence, begins; `NOWHERE` if it was not read.
+
+    >>> from rocon_uri.sources.yaml_source import load
+    >>> value_place(load('a: b', 'f'), 'a'), value_place({'a': 'b'}, 'a')
+    ((1, 4), (None, None))
+    """
+    try:
+        if isinstance(collection, YamlMapping):
+            return collection.value_position(key)
+        if isinstance(collection, YamlSequence):
+            return collection.item_position(key)
+    except LookupError:     # put in since
+        pass
+    return NOWHERE
