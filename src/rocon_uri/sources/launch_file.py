@@ -74,14 +74,22 @@ class LaunchFault:
     @property
     def suggestions(self) -> List[str]:
         """The names of files that were probably meant: a list of at most three str."""
-        if self.name in self.alternatives:
-            return []
-        return near_misses(self.name, self.alternatives)
+        own_name = os.path.basename(self.name)
+        elsewhere = [path for path in self.alternatives if os.path.basename(path) == own_name]
+        if elsewhere:
+            return elsewhere
+        # What nearly all names end in would make all of them alike.
+        stems = {_stem(path): path for path in self.alternatives}
+        return [stems[stem] for stem in near_misses(_stem(self.name), stems)]
 
     def __str__(self) -> str:
         place = '' if self.line is None else ' (line %s, column %s)' % (self.line, self.column)
         return 'launch file %s %s%s%s' % (
             quoted(self.name), self.problem, place, did_you_mean(self.suggestions))
+
+
+def _stem(path: str) -> str:
+    return os.path.splitext(os.path.basename(path))[0]
 
 
 class LaunchFile(NamedTuple):
@@ -200,9 +208,12 @@ def _read(name: str, folder: str) -> LaunchFile:
             alternatives = _alternatives(name, folder, package)
         fault = LaunchFault(refused.kind, refused.problem, name, path, *refused.place, alternatives)
         return LaunchFile(path, real_path, fault, names_nodelet_manager)
-    except (OSError, ValueError) as error:      # a NUL in the path is a ValueError
-        problem = 'cannot be read: %s' % (getattr(error, 'strerror', None) or error)
+    except OSError as error:
+        problem = 'cannot be read: %s' % (error.strerror or error)
         return LaunchFile(path, real_path, LaunchFault(UNREADABLE, problem, name, path), False)
+    except ValueError:      # there is a NUL in it, or a lone surrogate
+        return LaunchFile(path, None, LaunchFault(
+            UNREADABLE, 'is not the name of a file', name, path), False)
     return LaunchFile(path, real_path, None, names_nodelet_manager)
 
 
@@ -241,12 +252,13 @@ def _is_inside(real_path: str, package: str) -> bool:
 
 def _alternatives(name: str, folder: str, package: Optional[str]) -> Tuple[str, ...]:
     """What could have been named in place of a file that is not there."""
-    beside = os.path.dirname(name)
+    beside, own_name = os.path.split(name)
     try:
         names = sorted(os.listdir(os.path.join(folder, beside)))[:_MAX_NAMES]
     except OSError:
         names = []
-    found = [os.path.join(beside, other) for other in names if other.endswith(('.launch', '.xml'))]
+    found = [os.path.join(beside, other) for other in names     # not a link that leads nowhere
+             if other.endswith(('.launch', '.xml')) and other != own_name]
     if package is not None and os.path.isfile(os.path.join(package, name)):
         found.append(os.path.relpath(os.path.join(package, name), folder))
     return tuple(found)
