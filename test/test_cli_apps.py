@@ -44,7 +44,8 @@ def apps_json(capsys):
 
 
 def dance(workspace, text='compatibility: rocon:/kobuki\nlaunch: dance.launch\n', name='ours'):
-    return make_package(workspace, name, [('rocon_app', 'dance.rapp')], dance_rapp=text)
+    return make_package(workspace, name, [('rocon_app', 'dance.rapp')], dance_rapp=text,
+                        dance_launch='<launch/>')
 
 
 def test_what_runs_is_listed_and_nothing_else(apps):
@@ -168,13 +169,14 @@ def test_the_command_itself_says_nothing_twice_and_knows_all_rules(tmp_path):
 
 
 def test_control_characters_of_files_do_not_reach_the_terminal(apps, tmp_path):
-    dance(tmp_path, '{compatibility: "rocon:/", launch: d.launch, display: "\\e[31mA\\nB\\u202e"}')
+    dance(tmp_path, '{compatibility: "rocon:/", launch: dance.launch, '
+                    'display: "\\e[31mA\\nB\\u202e"}')
     status, lines, _ = apps('--robot', ROBOT, '--package-path', tmp_path)
     assert (status, lines[1:]) == (0, ['  ours/dance  \\x1b[31mA B\\u202e'])
 
 
 def test_a_file_name_that_is_no_text_is_no_traceback(apps, tmp_path):
-    folder = make_package(tmp_path, 'ours', [('rocon_app', 'caf\u00e9.rapp')])
+    folder = make_package(tmp_path, 'ours', [('rocon_app', 'caf\u00e9.rapp')], d_launch='<launch/>')
     (folder / 'caf\u00e9.rapp').write_text('{compatibility: "rocon:/", launch: d.launch}')
     os.rename(os.fsencode(str(tmp_path)) + b'/ours', os.fsencode(str(tmp_path)) + b'/our\xff')
     status, lines, _ = apps('--robot', ROBOT, '--package-path', tmp_path, '--all')
@@ -195,7 +197,7 @@ def test_json_has_what_runs_and_with_all_the_reasons(apps_json):
     status, answer = apps_json('--robot', ROBOT, '--package-path', EXAMPLES, '--all')
     reasons = {app['name']: app['reasons'] for app in answer['apps']}
     assert len(reasons) == 7
-    assert [reason['kind'] for reason in reasons['cafe_rapps/serve']] == ['dependency']
+    assert [reason['kind'] for reason in reasons['cafe_rapps/serve']] == ['no-provider']
     assert reasons['cafe_rapps/serve'][0]['fault']['capability'] == 'cafe_capabilities/Lift'
     assert reasons['cafe_rapps/greet'][0]['fault']['kind'] == 'ambiguous'
     (platform,) = reasons['cafe_cart/carry']
@@ -215,12 +217,70 @@ def test_json_has_the_errors(apps_json, tmp_path):
 
 
 @needs_corpus
-def test_the_corpus_on_a_kobuki(apps):
+def test_the_corpus_on_a_kobuki(apps, apps_json):
+    """It holds no launch files; with them, eight of its apps would run."""
     defaults = Path(CORPUS) / 'kobuki_capabilities/param/defaults_kobuki_capabilities.yaml'
-    status, lines, err = apps('--robot', 'rocon:/kobuki/bob/indigo/trusty', '--package-path',
-                              CORPUS, '--defaults', defaults)
+    given = ('--robot', 'rocon:/kobuki/bob/indigo/trusty', '--package-path', CORPUS,
+             '--defaults', defaults)
+    run = ['kobuki_rapps/auto_docking', 'kobuki_rapps/random_walker', 'rocon_apps/listener',
+           'rocon_apps/talker', 'rocon_apps/lion_chirp', 'rocon_apps/angry_cat_chirp',
+           'rocon_apps/meow_chirp', 'rocon_apps/moo_chirp']
+    status, lines, err = apps(*given, '--ignore', 'launch-missing')
     assert (status, err) == (0, '')
-    assert [line.split()[0] for line in lines[1:]] == [
-        'kobuki_rapps/auto_docking', 'kobuki_rapps/random_walker', 'rocon_apps/listener',
-        'rocon_apps/talker', 'rocon_apps/lion_chirp', 'rocon_apps/angry_cat_chirp',
-        'rocon_apps/meow_chirp', 'rocon_apps/moo_chirp']
+    assert [line.split()[0] for line in lines[1:]] == run
+    status, answer = apps_json(*given, '--all')
+    assert status == 1
+    kinds = {app['name']: [reason['kind'] for reason in app['reasons']] for app in answer['apps']}
+    assert [name for name, found in kinds.items() if set(found) == {'launch-missing'}] == run
+    # its own, and those of the providers that it needs
+    assert len(kinds['rocon_apps/talker']) == 1 and len(kinds['kobuki_rapps/random_walker']) > 1
+
+
+# Launch files
+
+def kinds(answer):
+    return [reason['kind'] for app in answer['apps'] for reason in app['reasons']]
+
+
+@pytest.mark.parametrize('launch, content, kind, text', [
+    ('dnace.launch', '<launch/>', 'launch-missing',
+     "launch file 'dnace.launch' does not exist (did you mean 'dance.launch'?)"),
+    ('../dance.launch', '<launch/>', 'launch-outside',
+     "launch file '../dance.launch' is outside the package"),
+    ('.', '<launch/>', 'launch-unreadable', "launch file '.' is not a file"),
+    ('dance.launch', '<launch>', 'launch-not-xml',
+     "launch file 'dance.launch' is not XML: no element found (line 1, column 9)"),
+    ('dance.launch', '<lunch/>', 'launch-no-launch',
+     "launch file 'dance.launch' has '<lunch>' at its top, expected <launch> (line 1, column 1)"),
+])
+def test_an_app_whose_launch_file_cannot_be_started_does_not_run(
+        apps, apps_json, tmp_path, launch, content, kind, text):
+    folder = dance(tmp_path, 'compatibility: rocon:/kobuki\nlaunch: %s\n' % launch)
+    (folder / 'dance.launch').write_text(content)
+    given = ('--robot', 'rocon:/kobuki/bob', '--package-path', tmp_path, '--all')
+    status, lines, _ = apps(*given)
+    assert (status, lines[1:]) == (1, [
+        'and cannot run:', '  ours/dance', '      %s [%s]' % (text, kind)])
+    status, answer = apps_json(*given)
+    assert status == 1 and answer['apps'][0]['reasons'] == [
+        {'kind': kind, 'text': text, 'fields': None, 'fault': None}]
+    status, answer = apps_json(*given, '--ignore', kind)
+    assert status == 0 and kinds(answer) == [] and answer['apps'][0]['runs']
+
+
+def test_each_kind_of_reason_can_be_ignored(apps_json):
+    given = ('--robot', ROBOT, '--package-path', EXAMPLES, '--all')
+    _, answer = apps_json(*given)
+    assert set(kinds(answer)) == {'virtual', 'platform', 'no-provider', 'ambiguous'}
+    _, answer = apps_json(*given, '--ignore', 'platform', '--ignore', 'ambiguous')
+    assert set(kinds(answer)) == {'virtual', 'no-provider'}
+    _, answer = apps_json(*given, '--ignore', 'virtual')
+    assert set(kinds(answer)) == {'platform', 'no-provider', 'ambiguous'}
+
+
+@pytest.mark.parametrize('given, hint', [
+    ('launch-mising', "'launch-mising' is no reason (did you mean 'launch-missing'"),
+    ('x', "'x' is no reason, expected one of virtual, platform, no-interface, ")])
+def test_to_ignore_what_is_no_reason_is_an_error(capsys, given, hint):
+    assert main(['apps', '--ignore', given]) == 2
+    assert hint in capsys.readouterr().err

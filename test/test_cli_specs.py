@@ -109,7 +109,7 @@ def test_show_of_a_provider_has_what_starts_before_it(specs):
     status, out, _ = specs('show', 'cafe_capabilities/front_camera', '--package-path', EXAMPLES)
     assert status == 0
     assert out.splitlines()[3:] == [
-        'implements cafe_capabilities/FrontCamera', 'launch_file launch/front_camera.launch',
+        'implements cafe_capabilities/FrontCamera', 'launch_file ../launch/front_camera.launch',
         'depends on', '  cafe_capabilities/MobileBase by cafe_capabilities/turtlebot_base',
         'to start, in this order', '  cafe_capabilities/turtlebot_base',
         '  cafe_capabilities/front_camera']

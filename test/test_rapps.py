@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from made_packages import make_package
+from sources import ROOT
 
 from capabilities.discovery import (
     package_index_from_package_path,
@@ -20,6 +21,7 @@ from rocon_uri import RoconURIValueError, Vocabulary, parse
 from rocon_uri.apps.rapps import (
     InvalidRapp, ReasonKind, rapp_from_string, rapps_from_package_index, runnable, with_inheritance)
 
+EXAMPLES = ROOT / 'examples' / 'workspace'
 CORPUS = os.environ.get('ROCON_URI_CORPUS')
 needs_corpus = pytest.mark.skipif(not CORPUS, reason='ROCON_URI_CORPUS is not set')
 
@@ -279,8 +281,13 @@ def spec_index(*texts):
     return index
 
 
+def judged(text):
+    """A rapp beside whose file is a launch file, radio.launch."""
+    return rapp_from_string(text, 'ours/dance', str(EXAMPLES / 'cafe_rapps/rapps/radio/dance.rapp'))
+
+
 def rapp_that_requires(*names, compatibility='rocon:/kobuki'):
-    return read('{compatibility: "%s", launch: dance.launch, required_capabilities: [%s]}' % (
+    return judged('{compatibility: "%s", launch: radio.launch, required_capabilities: [%s]}' % (
         compatibility, ', '.join('{name: caps/%s}' % name for name in names)))
 
 
@@ -343,10 +350,10 @@ def test_the_platform_is_explained_field_by_field():
 
 
 @pytest.mark.parametrize('text, lacks', [
-    ('compatibility: rocon:/', 'launch'), ('launch: dance.launch', 'compatibility'),
+    ('compatibility: rocon:/', 'launch'), ('launch: radio.launch', 'compatibility'),
     ('{}', 'compatibility and no launch')])
 def test_a_virtual_rapp_never_runs(text, lacks):
-    (reason,) = runnable(read(text), ROBOT, spec_index()).reasons
+    (reason,) = runnable(judged(text), ROBOT, spec_index()).reasons
     assert reason.kind is ReasonKind.VIRTUAL and str(reason) == 'it is virtual: it has no ' + lacks
 
 
@@ -391,10 +398,12 @@ def test_the_random_walker_of_the_corpus_needs_a_default():
     rapps, _ = rapps_from_package_index(packages)
     index, _ = spec_index_from_spec_file_index(spec_file_index_from_package_index(packages))
     walker = rapps['kobuki_rapps/random_walker']
-    (reason,) = runnable(walker, ROBOT, index).reasons
+    elsewhere = ['launch-missing']      # there are no launch files in it
+    (reason,) = runnable(walker, ROBOT, index, ignore=elsewhere).reasons
     assert reason.fault.kind is FaultKind.AMBIGUOUS
     base = 'kobuki_capabilities/kobuki_differential_mobile_base'
-    verdict = runnable(walker, ROBOT, index, {'std_capabilities/DifferentialMobileBase': base})
+    verdict = runnable(walker, ROBOT, index, {'std_capabilities/DifferentialMobileBase': base},
+                       ignore=elsewhere)
     assert verdict and verdict.providers[:2] == ('kobuki_capabilities/kobuki_bringup', base)
     assert not runnable(walker, 'rocon:/pr2/bob/noetic/focal', index,
                         {'std_capabilities/DifferentialMobileBase': base})
@@ -407,7 +416,8 @@ def test_without_one_package_of_the_corpus_the_rest_is_still_judged():
     rapps, _ = rapps_from_package_index(packages)
     index, errors = spec_index_from_spec_file_index(spec_file_index_from_package_index(packages))
     assert errors
-    verdict = runnable(rapps['kobuki_rapps/random_walker'], ROBOT, index)
+    elsewhere = ['launch-missing']
+    verdict = runnable(rapps['kobuki_rapps/random_walker'], ROBOT, index, ignore=elsewhere)
     assert [(reason.fault.kind, reason.fault.capability) for reason in verdict.reasons] == [
         (FaultKind.NO_INTERFACE, 'std_capabilities/DifferentialMobileBase')]
-    assert runnable(rapps['kobuki_rapps/auto_docking'], ROBOT, index)
+    assert runnable(rapps['kobuki_rapps/auto_docking'], ROBOT, index, ignore=elsewhere)

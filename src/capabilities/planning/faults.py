@@ -100,13 +100,18 @@ no provider implements it
         return near_misses(self.provider or self.capability, self.known)
 
     @property
+    def is_of_the_capability(self) -> bool:
+        """Is it what was asked for that cannot be had, and not something that it depends on?"""
+        return self.required_by is None and self.kind in _OF_THE_CAPABILITY
+
+    @property
     def reason(self) -> str:
         """
         The fault as a reason why what was asked for cannot be started (str of one line).
 
         ``rocon_uri apps`` and the capability server both show this.
         """
-        if self.required_by is None and self.kind in _OF_THE_CAPABILITY:
+        if self.is_of_the_capability:
             return str(self)
         return 'capability %s cannot be started: %s' % (quoted(self.asked_for), self)
 

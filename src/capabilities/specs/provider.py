@@ -81,8 +81,8 @@ class CapabilityProvider(RemappingSpec):
     :param str name: its name
     :param int spec_version: the version of the specification, 1
     :param str implements: the name of the interface that it provides
-    :param str launch_file: the path of the launch file that runs it, relative to its package;
-        ``None`` if there is nothing to run
+    :param str launch_file: the path of the launch file that runs it, relative to the folder of
+        its spec; ``None`` if there is nothing to run
     :param str description: free text; ``None`` gives ``'No description given.'``
     :param dict remappings: new names by name, by kind (``{'topics': {'scan': 'laser/scan'}}``)
     :param str nodelet_manager: the name of the nodelet manager that it uses, or ``None``

@@ -2,78 +2,98 @@
 Can a rapp run on a robot, and if not, what is against it?
 
 A rapp runs where it is an implementation, where its compatibility string meets the robot's URI, and
-where each capability that it requires can be started. The verdict has everything that is against,
-not only the first.
+where its launch file and each capability that it requires can be started. The verdict has
+everything that is against, not only the first.
 """
 from __future__ import annotations
 
-from collections import namedtuple
+import os
 from enum import Enum
+from typing import Collection, Iterator, Mapping, NamedTuple, Optional, Tuple, Union
 
 from capabilities.planning.faults import Fault, FaultKind
 from capabilities.planning.providers import plan_for_capabilities
-from rocon_uri.compatibility import explain
+from capabilities.spec_index import SpecIndex
+from rocon_uri.apps.rapp import Rapp
+from rocon_uri.compatibility import Explanation, explain
 from rocon_uri.exceptions import RoconURIValueError
-from rocon_uri.sources.wording import quoted
-from rocon_uri.uri import parse
+from rocon_uri.sources.launch_file import LaunchFault, LaunchFiles
+from rocon_uri.uri import RoconURI, parse
 from rocon_uri.vocabulary import Vocabulary
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Iterator, Mapping, Optional, Union
-    from capabilities.spec_index import SpecIndex
-    from rocon_uri.apps.rapp import Rapp
-    from rocon_uri.uri import RoconURI
-
-__all__ = ['Reason', 'ReasonKind', 'Verdict', 'runnable']
+__all__ = ['REASON_IDS', 'Reason', 'ReasonKind', 'Verdict', 'runnable']
 
 
 class ReasonKind(Enum):
-    """What is against running a rapp."""
+    """What a reason against running a rapp is about."""
 
     #: it is virtual, a parent of others only
     VIRTUAL = 'virtual'
     #: the robot is no platform for it, or its compatibility string cannot be read
     PLATFORM = 'platform'
+    #: its own launch file cannot be started
+    LAUNCH = 'launch'
     #: a capability that it requires cannot be had
     CAPABILITY = 'capability'
     #: a capability that it requires has a provider, which lacks something itself
     DEPENDENCY = 'dependency'
 
 
-class Reason(namedtuple('Reason', 'kind problem explanation fault')):
+#: The ids that reasons may have, in a stable order.
+REASON_IDS: Tuple[str, ...] = (ReasonKind.VIRTUAL.value, ReasonKind.PLATFORM.value,
+                               *(kind.value for kind in FaultKind
+                                 if kind is not FaultKind.NO_NODELET_MANAGER))
+
+
+class Reason(NamedTuple):
     """
     One thing that is against running a rapp. Its text is one line.
 
-    - ``kind``: `ReasonKind`
-    - ``problem``: str, what is wrong with the rapp or the platform; '' if a capability is the
-      reason, of which ``fault`` has the text
-    - ``explanation``: `rocon_uri.compatibility.Explanation`, of the rapp and the robot, if the
-      platform is the reason and could be compared; its text is a table of the fields
-    - ``fault``: `capabilities.providers.Fault`, if a capability is the reason
+    >>> Reason(ReasonKind.VIRTUAL, 'it is virtual: it has no launch').id
+    'virtual'
     """
 
-    __slots__ = ()
+    #: what it is about
+    kind: ReasonKind
+    #: what is wrong with the rapp or the platform; '' if a launch file or a capability is the
+    #: reason, of which ``launch`` or ``fault`` has the text
+    problem: str = ''
+    #: of the rapp and the robot, if the platform is the reason and could be compared; its text is a
+    #: table of the fields
+    explanation: Optional[Explanation] = None
+    #: if a capability is the reason
+    fault: Optional[Fault] = None
+    #: if the rapp's own launch file is the reason
+    launch: Optional[LaunchFault] = None
+
+    @property
+    def id(self) -> str:
+        """Which kind of thing it is, one of `REASON_IDS` (str)."""
+        if self.fault is not None:
+            return self.fault.kind.value
+        return str(self.kind.value) if self.launch is None else self.launch.kind
 
     def __str__(self) -> str:
-        if self.fault is None:
-            return str(self.problem)
-        if self.kind is ReasonKind.CAPABILITY:
-            return str(self.fault)
-        return 'capability %s cannot be started: %s' % (quoted(self.fault.asked_for), self.fault)
+        if self.fault is not None:
+            return self.fault.reason
+        return self.problem if self.launch is None else str(self.launch)
 
 
-class Verdict(namedtuple('Verdict', 'rapp reasons providers')):
+class Verdict(NamedTuple):
     """
     Whether a rapp runs on a robot; true if it does.
 
-    - ``rapp``: `rocon_uri.rapp.Rapp`
-    - ``reasons``: tuple of `Reason`, everything that is against; empty if it runs
-    - ``providers``: tuple of str, the providers of capabilities to start for it, in order; as many
-      as can be had
+    >>> from rocon_uri.apps.rapps import rapp_from_string
+    >>> print(Verdict(rapp_from_string('launch: dance.launch', 'ours/dance'), (), ()))
+    ours/dance runs
     """
 
-    __slots__ = ()
+    #: what is judged
+    rapp: Rapp
+    #: everything that is against; empty if it runs
+    reasons: Tuple[Reason, ...]
+    #: the providers of capabilities to start for it, in order; as many as can be had
+    providers: Tuple[str, ...]
 
     def __bool__(self) -> bool:
         return not self.reasons
@@ -85,7 +105,9 @@ class Verdict(namedtuple('Verdict', 'rapp reasons providers')):
 
 
 def runnable(rapp: Rapp, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
-             defaults: Optional[Mapping[str, str]] = None) -> Verdict:
+             defaults: Optional[Mapping[str, str]] = None,
+             launch_files: Optional[LaunchFiles] = None,
+             ignore: Collection[str] = ()) -> Verdict:
     """
     Can this rapp run on this robot?
 
@@ -94,47 +116,62 @@ def runnable(rapp: Rapp, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
         rapps that run anywhere do not mind
     :param spec_index: `capabilities.discovery.SpecIndex` of the capabilities that the robot has
     :param defaults: mapping of names of interfaces to those of the providers to take for them
+    :param launch_files: `LaunchFiles`, to read each launch file once for several rapps
+    :param ignore: collection of str, the ids of the reasons to leave out, of `REASON_IDS`
     :returns: `Verdict`
     :raises RoconURIValueError: if the robot's URI is not legal
 
     >>> from capabilities.discovery import SpecIndex
-    >>> from rocon_uri.apps.rapp import rapp_from_string
-    >>> dance = rapp_from_string('{compatibility: "rocon:/pr2", launch: d.launch}', 'ours/dance')
-    >>> bool(runnable(dance, 'rocon:/pr2/bob', SpecIndex()))
+    >>> from rocon_uri.apps.rapps import rapp_from_file_path
+    >>> path = 'examples/workspace/cafe_rapps/rapps/radio/radio.rapp'
+    >>> radio = rapp_from_file_path(path, 'cafe_rapps/radio')
+    >>> bool(runnable(radio, 'rocon:/pr2/bob', SpecIndex()))
     True
-    >>> print(runnable(dance, 'rocon:/kobuki/bob', SpecIndex()))
+    >>> from rocon_uri.apps.rapps import rapp_from_string
+    >>> dance = rapp_from_string('{compatibility: "rocon:/pr2", launch: d.launch}', 'ours/dance')
+    >>> print(runnable(dance, 'rocon:/kobuki', SpecIndex(), ignore=['launch-missing']))
     ours/dance does not run: 'rocon:/pr2' does not include this robot: hardware_platform is kobuki
     """
     if isinstance(robot_uri, str):
         parse(robot_uri, Vocabulary.open())     # a fault in it is none of the rapp's
-    reasons = list(_platform_reasons(rapp, robot_uri))
+    if launch_files is None:
+        launch_files = LaunchFiles()
+    reasons = [*_platform_reasons(rapp, robot_uri), *_launch_reasons(rapp, launch_files)]
     plan = plan_for_capabilities(
-        spec_index, [capability.name for capability in rapp.required_capabilities], defaults)
-    reasons += [_capability_reason(fault) for fault in plan.faults]
-    return Verdict(rapp, tuple(reasons), tuple(plan.order))
+        spec_index, [capability.name for capability in rapp.required_capabilities], defaults,
+        launch_files)
+    reasons += map(_capability_reason, plan.faults)
+    return Verdict(rapp, tuple(reason for reason in reasons if reason.id not in ignore),
+                   tuple(plan.order))
+
+
+def _launch_reasons(rapp: Rapp, launch_files: LaunchFiles) -> Iterator[Reason]:
+    if rapp.launch is not None:
+        file = launch_files.look_at(rapp.launch, os.path.dirname(rapp.path))
+        if file.fault is not None:
+            yield Reason(ReasonKind.LAUNCH, launch=file.fault)
 
 
 def _capability_reason(fault: Fault) -> Reason:
-    is_its_own = fault.required_by is None and fault.kind not in (FaultKind.CYCLE,
-                                                                  FaultKind.CONFLICT)
-    return Reason(ReasonKind.CAPABILITY if is_its_own else ReasonKind.DEPENDENCY, '', None, fault)
+    return Reason(ReasonKind.CAPABILITY if fault.is_of_the_capability else ReasonKind.DEPENDENCY,
+                  fault=fault)
 
 
 def _platform_reasons(rapp: Rapp, robot_uri: Union[str, RoconURI]) -> Iterator[Reason]:
     if not rapp.is_implementation:
         lacks = ' and no '.join(key for key in ('compatibility', 'launch')
                              if getattr(rapp, key) is None)
-        yield Reason(ReasonKind.VIRTUAL, 'it is virtual: it has no %s' % lacks, None, None)
+        yield Reason(ReasonKind.VIRTUAL, 'it is virtual: it has no %s' % lacks)
     if rapp.compatibility is None:
         return
     vocabulary = None if isinstance(robot_uri, str) else robot_uri.vocabulary
     try:
         explanation = explain(parse(rapp.compatibility, vocabulary), robot_uri)
     except RoconURIValueError as error:
-        yield Reason(ReasonKind.PLATFORM, str(error), None, None)
+        yield Reason(ReasonKind.PLATFORM, str(error))
         return
     if not explanation:
         wrong = ['%s is %s' % (comparison.field, comparison.b)
                  for comparison in explanation.fields if not comparison.is_compatible]
         yield Reason(ReasonKind.PLATFORM, "'%s' does not include this robot: %s" % (
-            explanation.a.short, ', '.join(wrong)), explanation, None)
+            explanation.a.short, ', '.join(wrong)), explanation)

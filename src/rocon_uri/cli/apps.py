@@ -5,12 +5,14 @@ Examples:
   rocon_uri apps
   rocon_uri apps --robot rocon:/turtlebot2/bob/noetic/focal --all
   rocon_uri apps --package-path ~/catkin_ws/src --defaults defaults.yaml
+  rocon_uri apps --all --ignore launch-missing
 
 Looks at all rapps and capability specs that the packages below PATH export, and
 takes it that the robot has what the providers among them provide. An app runs if
-the robot's URI is compatible with it and all capabilities that it requires can be
-started. Where several providers implement one, FILE says which to take: a YAML
-mapping from interfaces to providers, on its own or as "defaults".
+the robot's URI is compatible with it, and its launch file and all capabilities
+that it requires can be started. Where several providers implement one, FILE says
+which to take: a YAML mapping from interfaces to providers, on its own or as
+"defaults". At the end of each reason is its ID, by which --ignore leaves it out.
 
 Exit status: 0 if an app runs; 1 if none does; 2 if the robot, a folder or a file
 was bad, though all else is judged, even for a robot that is not registered
@@ -18,10 +20,13 @@ JSON: {"robot": URI, "apps": [{"name", "display", "description", "compatibility"
 "file", "launch", "runs": BOOL, "virtual": BOOL, "providers": [NAME, ...],
 "reasons": [{"kind", "text", "fields", "fault"}, ...]}, ...],
 "errors": [ERROR, ...]}
-with providers in the order in which to start them, fields as of check, and null
-for what there is not; apps that do not run are only there with --all
+with the ID of a reason as its kind, providers in the order in which to start
+them, fields as of check, and null for what there is not; apps that do not run are
+only there with --all
 """
 from __future__ import annotations
+
+from argparse import ArgumentTypeError
 
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.given import GivenURI
@@ -29,7 +34,7 @@ from rocon_uri.cli.packages import (
     PackageReport, Packages, add_package_path, escape_unencodable, package_path, printable,
     shortened)
 from rocon_uri.exceptions import RoconURIValueError
-from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 from rocon_uri.platform import (
     default_robot_name, default_robot_type, generate_platform_rocon_uri)
 from rocon_uri.uri import parse
@@ -55,6 +60,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help='also the apps that it cannot run, and why')
     parser.add_argument('--defaults', metavar='FILE',
                         help='which provider to take where there are several')
+    parser.add_argument('--ignore', metavar='ID', type=_reason_id, action='append', default=[],
+                        help='leave reasons of this kind out, as where apps are installed '
+                             'elsewhere (may be repeated)')
+
+
+def _reason_id(text: str) -> str:
+    """The id of a reason; argparse reports another text."""
+    from rocon_uri.apps.runnable import REASON_IDS  # here, since it loads YAML
+    if text not in REASON_IDS:
+        raise ArgumentTypeError('%s is no reason%s' % (
+            quoted(text), did_you_mean(near_misses(text, REASON_IDS))
+            or ', expected one of %s' % ', '.join(REASON_IDS)))
+    return text
 
 
 def main(args: argparse.Namespace) -> int:
@@ -67,7 +85,9 @@ def main(args: argparse.Namespace) -> int:
     if robot is None or defaults is None:
         return report.status
     from rocon_uri.apps.rapps import runnable    # here, since it loads YAML
-    verdicts = [runnable(rapp, robot.uri, packages.spec_index, defaults)
+    from rocon_uri.sources.launch_file import LaunchFiles   # the same
+    launch_files = LaunchFiles()
+    verdicts = [runnable(rapp, robot.uri, packages.spec_index, defaults, launch_files, args.ignore)
                 for rapp in packages.rapps.values()]
     if args.json:
         print_json({'robot': robot.as_json(),
@@ -121,7 +141,8 @@ def _read_defaults(path: Optional[str], report: PackageReport) -> Optional[Dict[
 def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool) -> None:
     paint = painter()
     runs = [verdict for verdict in verdicts if verdict]
-    virtual = [verdict for verdict in verdicts if not verdict.rapp.is_implementation]
+    virtual = [verdict for verdict in verdicts
+               if not verdict and not verdict.rapp.is_implementation]
     others = [verdict for verdict in verdicts
               if not verdict and verdict.rapp.is_implementation]
     width = max((len(printable(verdict.rapp.name)) for verdict in runs + others), default=0)
@@ -153,7 +174,7 @@ def _line(verdict: Verdict, width: int, style: str) -> str:
 
 
 def _show_reason(reason: Reason) -> None:
-    print('      ' + printable(reason))
+    print('      %s %s' % (printable(reason), painter()('[%s]' % reason.id, 'faint')))
     if reason.explanation is not None:
         for line in str(reason.explanation).splitlines()[1:]:   # without the verdict
             print('        ' + painter()(line, 'faint'))
@@ -167,7 +188,7 @@ def _as_json(verdict: Verdict) -> Dict[str, Any]:
         'launch': rapp.files.get('launch'), 'runs': bool(verdict),
         'virtual': not rapp.is_implementation, 'providers': list(verdict.providers),
         'reasons': [{
-            'kind': reason.kind.value, 'text': str(reason),
+            'kind': reason.id, 'text': str(reason),
             'fields': _fields(reason),
             'fault': None if reason.fault is None else reason.fault.to_dict(),
         } for reason in verdict.reasons],
