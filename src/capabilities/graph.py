@@ -19,6 +19,7 @@ from __future__ import annotations
 from capabilities.actions import ENDS, Action, Do, RefusedRequest, StartResult
 from capabilities.instances import NO_EXIT_CODE, CapabilityInstance, State
 from capabilities.roster import Roster
+from rocon_uri.sources.wording import quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -105,11 +106,13 @@ class Graph(Roster):
         candidates = [instance for instance in self._current.values()
                       if name in (instance.interface, instance.redefines)]
         if not candidates:
-            raise RefusedRequest("Cannot free Capability '%s', because it is not running" % name)
+            raise RefusedRequest(
+                'Cannot free Capability %s, because it is not running' % quoted(name))
         used = [instance for instance in candidates if bond_id in instance.bonds]
         if not used:
-            raise RefusedRequest("Given bond_id '%s' not associated with given capability '%s'" % (
-                bond_id, name))
+            raise RefusedRequest(
+                'Given bond_id %s not associated with given capability %s' % (
+                    quoted(bond_id), quoted(name)))
         instance = min(used, key=lambda instance: (instance.interface != name,
                                                    (bond_id, name) not in instance.asked_as))
         instance.remove_use(bond_id, name)
@@ -124,7 +127,7 @@ class Graph(Roster):
         :raises RefusedRequest: if there is no instance of it
         """
         if name not in self._current and name not in self._stopping:
-            raise RefusedRequest("No Capability '%s' running" % name)
+            raise RefusedRequest('No Capability %s running' % quoted(name))
         ending = {name}
         if name in self._current:
             affected = self._with_dependents([self._current[name]])
@@ -144,7 +147,8 @@ class Graph(Roster):
         :raises RefusedRequest: if there is none of this id
         """
         if bond_id not in self._bonds:
-            raise RefusedRequest("Invalid bond_id given to ~use_capability: '%s'" % bond_id)
+            raise RefusedRequest(
+                'Invalid bond_id given to ~use_capability: %s' % quoted(bond_id))
 
     def bond_broken(self, bond_id: str) -> None:
         """A bond is no more: all its uses end."""

@@ -87,10 +87,11 @@ class CapabilityInstance:
     :param redefines: str, the interface that its (semantic) interface redefines, or None
     :param launch_file: str, the real path of its launch file, or None
     :param depends_on: the names of the capabilities that it depends on; None for those of the spec
+    :param bool uses_nodelet_manager: is it to be restarted with the nodelet manager?
 
     - ``name``, ``provider`` (str): the provider's name; ``interface`` (str): what it implements
     - ``spec`` (`CapabilityProvider`), ``provider_path``, ``started_by``, ``redefines``,
-      ``launch_file``, ``depends_on`` (list of str): as given
+      ``launch_file``, ``depends_on`` (list of str), ``uses_nodelet_manager``: as given
     - ``pid`` (int or None), ``since`` (float): of the state, in seconds since 1970
     - ``canceled`` (bool): was it dropped before it was launched?
     - ``started`` (bool): was it started explicitly?
@@ -105,7 +106,8 @@ class CapabilityInstance:
     def __init__(self, provider: CapabilityProvider, provider_path: str,
                  started_by: str = 'unknown', redefines: Optional[str] = None,
                  launch_file: Optional[str] = None,
-                 depends_on: Optional[Iterable[str]] = None) -> None:
+                 depends_on: Optional[Iterable[str]] = None,
+                 uses_nodelet_manager: bool = False) -> None:
         self.spec = provider
         self.name = self.provider = provider.name
         self.provider_path = provider_path
@@ -114,6 +116,7 @@ class CapabilityInstance:
         self.launch_file = launch_file
         self.depends_on: List[str] = list(
             provider.dependencies if depends_on is None else depends_on)
+        self.uses_nodelet_manager = uses_nodelet_manager
         self.started_by = started_by
         self._state = State.WAITING
         self.since = 0.0
@@ -186,7 +189,8 @@ class CapabilityInstance:
     def successor(self) -> CapabilityInstance:
         """An instance that waits to take its place, with its wants and dependencies."""
         successor = CapabilityInstance(self.spec, self.provider_path, self.started_by,
-                                       self.redefines, self.launch_file, self.depends_on)
+                                       self.redefines, self.launch_file, self.depends_on,
+                                       self.uses_nodelet_manager)
         successor.started = self.started
         successor.bonds = dict(self.bonds)
         successor.asked_as = dict(self.asked_as)

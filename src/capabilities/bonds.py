@@ -1,0 +1,69 @@
+"""The server's halves of the bonds of its clients."""
+from __future__ import annotations
+
+import threading
+import uuid
+from typing import Callable, Dict
+
+from bond.msg import Status
+from bondpy import bondpy
+import rospy
+
+__all__ = ['Bonds']
+
+
+class Bonds:
+    """
+    Bonds on one topic. Methods may be called in any thread.
+
+    :param str topic: the topic of all of them
+    :param on_broken: called with the id of a bond that was broken, fell silent or never formed
+    :param later: called with what is to be done later, in another thread
+    """
+
+    def __init__(self, topic: str, on_broken: Callable[[str], None],
+                 later: Callable[[Callable[[], object]], None]) -> None:
+        self._topic = topic
+        self._on_broken = on_broken
+        self._later = later
+        self._lock = threading.Lock()
+        self._bonds: Dict[str, bondpy.Bond] = {}
+        # With these the topic stays connected, so that no bond has to wait for the master.
+        self._publisher = rospy.Publisher(topic, Status, queue_size=10)
+        self._subscriber = rospy.Subscriber(topic, Status, lambda message: None)
+
+    @staticmethod
+    def new_id() -> str:
+        """The id for a new bond."""
+        return str(uuid.uuid1())
+
+    def start(self, bond_id: str) -> None:
+        """Begin a bond of a new id."""
+        bond = bondpy.Bond(self._topic, bond_id, lambda: self._broken(bond_id),
+                           lambda: self._formed(bond_id))
+        with self._lock:
+            self._bonds[bond_id] = bond
+        bond.start()
+
+    def end(self) -> None:
+        """Break all bonds."""
+        with self._lock:
+            bonds = list(self._bonds.values())
+        for bond in bonds:
+            bond.shutdown()
+
+    def _formed(self, bond_id: str) -> None:
+        """A client has answered. bondpy would notice its death only after its next heartbeat."""
+        with self._lock:
+            bond = self._bonds.get(bond_id)
+        if bond is not None:
+            with bond.lock:
+                if bond.sm.getState().getName() == 'SM.Alive':
+                    bond.heartbeat_timer.reset()
+
+    def _broken(self, bond_id: str) -> None:
+        with self._lock:
+            bond = self._bonds.pop(bond_id, None)
+        self._on_broken(bond_id)
+        if bond is not None:
+            self._later(bond.shutdown)      # not in here: bondpy calls this in the midst of it

@@ -1,0 +1,364 @@
+"""
+The graph of what is wanted, joined with the processes that run it.
+
+A `Runtime` has the one lock of the capability server. Requests, bonds, and what happens to
+processes become events of the graph under it, and the actions of the graph are carried out before
+it is released; nothing that takes long is done while it is held. It knows launch files and
+processes, and no ROS: what is to be published goes to an `Audience`.
+"""
+from __future__ import annotations
+
+import logging
+import os
+import threading
+import time
+from typing import TYPE_CHECKING, Callable, Dict, List, Optional, TypeVar
+
+from capabilities.actions import ENDS, Action, Do, RefusedRequest, StartResult
+from capabilities.catalogue import Catalogue
+from capabilities.graph import Graph
+from capabilities.instances import USER_SERVICE_REASON, CapabilityInstance
+from capabilities.launch_manager import LaunchManager, _special_nodelet_manager_capability
+from capabilities.planning.plan import RunningProvider, StartPlan, error_text
+from capabilities.planning.providers import LaunchFacts, plan_start
+from capabilities.status import status_entries
+from rocon_uri.sources.launch_file import LaunchFiles
+from rocon_uri.sources.wording import quoted
+
+if TYPE_CHECKING:
+    from typing import Protocol
+
+    from capabilities.launch import Report
+    from capabilities.status import StatusEntry
+
+    class Audience(Protocol):
+        """Who is told, under the lock, and therefore must not wait for anything."""
+
+        def told(self, event: str, capability: str, provider: str, pid: int) -> None:
+            """Something was ``launched``, is being ``stopped``, or has ``terminated``."""
+
+        def status(self, entries: List[StatusEntry]) -> None:
+            """The status is now this."""
+
+        def must_end(self, exit_status: int) -> None:
+            """The server is to end with this status."""
+
+__all__ = ['Runtime']
+
+T = TypeVar('T')
+
+_EVENTS = {Do.TELL_LAUNCHED: 'launched', Do.TELL_STOPPED: 'stopped',
+           Do.TELL_TERMINATED: 'terminated'}
+_LOSSES = 3                 # so many losses of the nodelet manager
+_LOSSES_SECONDS = 60.0      # in this time are one too many
+
+_logger = logging.getLogger('rosout.capabilities')
+
+
+class Runtime:
+    """
+    What runs, and how it is started and stopped. Its methods may be called in any thread.
+
+    :param audience: is told what happens
+    :param Catalogue catalogue: what can be started
+    :param bool keep_dependents: do dependents of what ended unasked go on?
+    :param bool ends_without_nodelet_manager: must the server end when it loses that?
+
+    All methods that are asked for something raise `RefusedRequest` once the server ends.
+    """
+
+    def __init__(self, audience: Audience, catalogue: Catalogue, keep_dependents: bool = False,
+                 ends_without_nodelet_manager: bool = False) -> None:
+        self.lock = threading.Lock()
+        self.graph = Graph(time.time, keep_dependents)
+        self.catalogue = catalogue
+        self._audience = audience
+        self._ends_without_nodelet_manager = ends_without_nodelet_manager
+        self._launch_files = LaunchFiles()
+        self._manager: Optional[LaunchManager] = None
+        self._has_manager = threading.Event()
+        self._by_pid: Dict[int, CapabilityInstance] = {}
+        self._gone: Dict[int, threading.Event] = {}
+        self._losses: List[float] = []      # of the nodelet manager, by the monotonic clock
+        self._reloads = 0                   # that were begun
+        self._newest_reload = 0             # that was finished
+
+    @property
+    def manager(self) -> LaunchManager:
+        """What runs the launch files (`LaunchManager`)."""
+        assert self._manager is not None
+        return self._manager
+
+    @manager.setter
+    def manager(self, manager: LaunchManager) -> None:
+        with self.lock:
+            self._manager = manager
+            self._tell_of_manager('launched')
+        self._has_manager.set()
+
+    # requests
+
+    def check_running(self) -> None:
+        """Check that the server does not end."""
+        if self.graph.ends:
+            raise RefusedRequest(ENDS)
+
+    def plan(self, capability: str, preferred: str) -> StartPlan:
+        """What a start would do (`StartPlan`); starts nothing."""
+        with self.lock:
+            running = self._running()
+        return self._plan(capability, preferred, running, self._launch_files)
+
+    def start(self, capability: str, preferred: str) -> StartResult:
+        """Start a capability for as long as nobody stops it."""
+        def start(plan: StartPlan) -> StartResult:
+            return self.graph.start(plan.steps[-1].capability, self._instances(plan))
+        return self._with_plan(capability, preferred, start)
+
+    def use(self, capability: str, preferred: str, bond_id: str) -> None:
+        """Count a use of a capability, and start it if it does not run."""
+        def use(plan: StartPlan) -> None:
+            self.graph.check_bond(bond_id)
+            name = plan.steps[-1].capability
+            current = self.graph.current(name)
+            if current is not None and preferred not in ('', current.provider):
+                raise RefusedRequest('Capability %s is already running with provider %s' % (
+                    quoted(name), quoted(current.provider)))
+            self.graph.use(name, self._instances(plan), bond_id, capability)
+        with self.lock:
+            self.check_running()
+            self.graph.check_bond(bond_id)
+        self._with_plan(capability, preferred, use)
+
+    def free(self, capability: str, bond_id: str) -> None:
+        """Count a use less, and wait until the capability has ended if that was the last want."""
+        self._wait_for(lambda: self.graph.free(capability, bond_id))
+
+    def stop(self, capability: str) -> None:
+        """Stop a capability and what depends on it, and wait until they have ended."""
+        self._wait_for(lambda: self.graph.stop(capability))
+
+    def bond_made(self, bond_id: str) -> None:
+        """There is a new bond."""
+        with self.lock:
+            self.check_running()
+            self.graph.bond_formed(bond_id)
+
+    def bond_broken(self, bond_id: str) -> None:
+        """A bond is no more."""
+        with self.lock:
+            self.graph.bond_broken(bond_id)
+            self._carry_out()
+
+    def autostart(self, capabilities: List[str]) -> None:
+        """Start some capabilities explicitly; those that cannot be started are failed."""
+        for name in capabilities:
+            try:
+                self.start(name, '')
+            except RefusedRequest as error:
+                with self.lock:
+                    if self.graph.ends:
+                        return
+                    self.graph.could_not_start(name, '', str(error))
+                    self._carry_out()
+                _logger.error('autostart of %s: %s', quoted(name), error)
+
+    def reload(self, read: Callable[[], Catalogue]) -> None:
+        """
+        Replace the catalogue. Nothing that runs is touched, and what it raises changes nothing.
+
+        :param read: makes the new one; called without the lock
+        """
+        with self.lock:
+            self.check_running()
+            self._reloads += 1
+            reload = self._reloads
+        catalogue = read()
+        with self.lock:
+            self.check_running()
+            if reload > self._newest_reload:    # else one that began later has been faster
+                self._newest_reload = reload
+                self.catalogue = catalogue
+                self.graph.forget_failures(set(catalogue.spec_index.interface_names)
+                                           | set(catalogue.spec_index.semantic_interface_names))
+                self._carry_out()
+
+    # the listener of the launch manager
+
+    def launch_reported(self, pid: int, report: Report) -> None:
+        """A launch file has started its nodes, or something happened to one of them."""
+        with self.lock:
+            instance = self._by_pid.get(pid)
+            if instance is None:
+                return
+            if report.kind == 'started':
+                self.graph.nodes_started(instance)
+            else:
+                self.graph.noted(instance, report.node, report.text, report.degrades)
+            self._carry_out()
+
+    def launch_ended(self, pid: int, exit_code: int, text: str) -> None:
+        """All processes of a launch are gone."""
+        with self.lock:
+            instance = self._by_pid.pop(pid, None)
+            if instance is None:
+                return
+            unexpected = self.graph.current(instance.interface) is instance
+            self.graph.ended(instance, exit_code, 'ended unexpectedly: %s' % text)
+            self._carry_out()
+        if unexpected:
+            _logger.error('capability %s by %s ended unexpectedly: %s',
+                          quoted(instance.interface), quoted(instance.provider), text)
+
+    def nodelet_manager_ended(self, pid: int, exit_code: int, text: str) -> None:
+        """The nodelet manager is gone: it is started again, or the server ends."""
+        self._has_manager.wait()
+        with self.lock:
+            self._tell_of_manager('terminated', pid)
+            if self.graph.ends:
+                return
+            now = time.monotonic()
+            self._losses = [loss for loss in self._losses if now - loss < _LOSSES_SECONDS] + [now]
+            if self._ends_without_nodelet_manager or len(self._losses) >= _LOSSES:
+                self._audience.must_end(1)
+                return
+            try:
+                self.manager.start_nodelet_manager()
+            except RuntimeError as error:
+                _logger.error('the nodelet manager cannot be started again: %s', error)
+                self._audience.must_end(1)
+                return
+            self._tell_of_manager('launched')
+            self.graph.restart([instance.interface for instance in self.graph.instances
+                                if instance.uses_nodelet_manager])
+            self._carry_out()
+
+    # the end
+
+    def begin_end(self) -> None:
+        """Refuse all requests, start nothing more, and begin to end everything at once."""
+        with self.lock:
+            if self.graph.ends:
+                return
+            self._tell_of_manager('stopped')
+            self.graph.end()
+            self._carry_out()
+        if self._manager is not None:
+            self._manager.begin_end()
+
+    def end(self) -> None:
+        """End everything, and wait for that."""
+        self.begin_end()
+        if self._manager is not None:
+            self._manager.end()
+
+    # how it is done; all of it under the lock
+
+    def _with_plan(self, capability: str, preferred: str, do: Callable[[StartPlan], T]) -> T:
+        """Plan a start, and do something with the plan if it has no faults. Takes the lock."""
+        while True:
+            self.plan(capability, preferred)    # reads the launch files that changed
+            with self.lock:
+                self.check_running()
+                plan = self._plan(capability, preferred, self._running(),
+                                  self._launch_files.remembered())
+                if plan.unread:     # of what has been reloaded or begun to stop meanwhile
+                    continue
+                if plan.faults:
+                    raise RefusedRequest(error_text(plan))
+                result = do(plan)
+                self._carry_out()
+                return result
+
+    def _plan(self, capability: str, preferred: str, running: List[RunningProvider],
+              launch_files: LaunchFacts) -> StartPlan:
+        catalogue = self.catalogue
+        has_nodelet_manager = self._manager is not None and self._manager.has_nodelet_manager
+        return plan_start(catalogue.spec_index, capability, preferred, catalogue.defaults, running,
+                          launch_files, has_nodelet_manager)
+
+    def _running(self) -> List[RunningProvider]:
+        """All instances, as a plan has to know them."""
+        return [RunningProvider(instance.interface, instance.provider, instance.launch_file,
+                                self.graph.stopping(instance.interface) is instance)
+                for instance in self.graph.instances]
+
+    def _instances(self, plan: StartPlan) -> List[CapabilityInstance]:
+        """New instances of what a plan has to start."""
+        catalogue = self.catalogue
+        providers = catalogue.spec_index.providers
+        paths = catalogue.spec_index.provider_paths
+        launch_files = self._launch_files.remembered()
+        instances = []
+        for step in plan.steps:
+            if not step.running:
+                spec, path = providers[step.provider], paths[step.provider]
+                uses_nodelet_manager = spec.nodelet_manager is not None
+                if spec.launch_file is not None:
+                    launch_file = launch_files.look_at(spec.launch_file, os.path.dirname(path))
+                    uses_nodelet_manager |= (launch_file is not None
+                                             and launch_file.names_nodelet_manager)
+                instances.append(CapabilityInstance(
+                    spec, path, step.required_by or USER_SERVICE_REASON,
+                    catalogue.redefines(step.capability), step.launch_file, step.depends_on,
+                    uses_nodelet_manager))
+        return instances
+
+    def _wait_for(self, do: Callable[[], List[CapabilityInstance]]) -> None:
+        """Do something that stops instances, and wait until they are gone. Takes the lock."""
+        with self.lock:
+            self.check_running()
+            gone = [self._gone.setdefault(id(instance), threading.Event()) for instance in do()]
+            self._carry_out()
+        for event in gone:
+            event.wait()
+
+    def _carry_out(self) -> None:
+        """Do what the graph says, until it says nothing more."""
+        actions = self.graph.take_actions()
+        while actions:
+            for action in actions:
+                self._do(action)
+            actions = self.graph.take_actions()
+        self._audience.status(status_entries(self.graph))
+
+    def _do(self, action: Action) -> None:
+        do, instance = action
+        if do is Do.LAUNCH:
+            self._launch(instance)
+        elif do is Do.STOP:
+            try:
+                self.manager.begin_stop(instance.pid or 0)
+            except RuntimeError:
+                pass    # it has ended by itself, and that will be told
+        elif do is Do.GONE:
+            event = self._gone.pop(id(instance), None)
+            if event is not None:
+                event.set()
+        else:
+            self._audience.told(_EVENTS[do], instance.interface, instance.provider,
+                                instance.pid or 0)
+
+    def _launch(self, instance: CapabilityInstance) -> None:
+        if instance.canceled:
+            return
+
+        def remember(pid: int) -> None:
+            self._by_pid[pid] = instance
+
+        try:
+            pid = self.manager.run_capability_provider(
+                instance.spec, instance.provider_path, remember)
+        except RuntimeError as error:
+            _logger.error('capability %s: %s', quoted(instance.interface), error)
+            self.graph.launch_failed(instance, str(error))
+        else:
+            self.graph.launched(instance, pid)
+
+    def _tell_of_manager(self, event: str, pid: Optional[int] = None) -> None:
+        """Tell of the nodelet manager, if there is one."""
+        if self._manager is not None:
+            pid = pid or self._manager.nodelet_manager_pid
+            if pid is not None:
+                self._audience.told(event, _special_nodelet_manager_capability,
+                                    self._manager.nodelet_manager_name.lstrip('/'), pid)

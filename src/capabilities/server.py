@@ -1,0 +1,309 @@
+"""
+The capability server: starts what a robot can do for whoever needs it.
+
+This is its node. Requests go to `capabilities.runtime`, which decides and starts processes; what
+that tells goes out as messages. Of what is decided there, nothing depends on messages that come in
+on ``~events`` or ``~status``: nobody can pretend that something has ended.
+"""
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import signal
+import sys
+import threading
+import time
+from typing import Callable, List, Optional, Sequence
+
+import rosgraph
+import rospy
+
+from capabilities.bonds import Bonds
+from capabilities.catalogue import Catalogue, catalogue_of, load_specs, read_catalogue
+from capabilities.instances import (
+    USER_SERVICE_REASON, CapabilityInstance, get_reverse_depends)
+from capabilities.launch_manager import LaunchManager
+from capabilities.messages import (
+    DiagnosticArray, diagnostics_message, event_message, ready_message, status_message)
+from capabilities.msg import CapabilityEvent, CapabilityStatuses
+from capabilities.outbox import Outbox
+from capabilities.parameters import InvalidConfiguration, read_parameters
+from capabilities.processes import ServerRun, end_leftovers
+from capabilities.runtime import Runtime
+from capabilities.services import Services
+from capabilities.spec_index import SpecIndex
+from capabilities.status import StatusEntry
+
+__all__ = ['USER_SERVICE_REASON', 'CapabilityInstance', 'CapabilityServer', 'create_parser',
+           'get_reverse_depends', 'main']
+
+Publish = Callable[[CapabilityEvent], None]
+
+_BAD_CONFIGURATION = 255
+
+_logger = logging.getLogger('rosout.capabilities')
+
+
+class CapabilityServer:
+    """
+    The server of this node, which `spin` runs; ``rospy.init_node`` comes before.
+
+    :param package_paths: list of str, the folders in which packages are looked for
+    :param screen: bool, is the output of all nodes shown? None: as ``~use_screen`` says
+    :raises InvalidConfiguration: if a parameter is not valid
+    """
+
+    def __init__(self, package_paths: Sequence[str], screen: Optional[bool] = None) -> None:
+        self.__package_paths = list(package_paths)
+        self.__parameters = read_parameters(rospy.get_param, bool(screen))
+        if self.__parameters.debug:
+            logging.getLogger('rosout').setLevel(logging.DEBUG)
+        self.__name = rospy.get_name()
+        self.__spec_index = SpecIndex()
+        self.__catalogue: Optional[Catalogue] = None
+        self.__runtime: Optional[Runtime] = None
+        self.__bonds: Optional[Bonds] = None
+        self.__outbox = Outbox()
+        self.__ready = False
+        self.__entries: List[StatusEntry] = []
+        self.__published: Optional[CapabilityStatuses] = None
+        self.__exit_status: Optional[int] = None
+        self.__has_ended = threading.Event()
+        # A signal handler may write to a pipe; it must not touch what the main thread may hold.
+        self.__wake_up_read, self.__wake_up = os.pipe()
+        self.__events = rospy.Publisher('~events', CapabilityEvent, _Greeting(self.__greeting),
+                                        queue_size=1000)
+        self.__status = rospy.Publisher('~status', CapabilityStatuses, latch=True, queue_size=10)
+
+    def spin(self) -> int:
+        """
+        Serve until the node is told to end, then end all that was started.
+
+        :returns: int, the exit status: 0; 1 if the nodelet manager was lost
+        :raises SystemExit: with status 255, if a default provider is at fault
+        """
+        rospy.on_shutdown(lambda: self.must_end(0))
+        try:
+            self.__load_capabilities()
+            self.__populate_default_providers()
+            self.__serve()
+        finally:
+            self.shutdown()
+        return self.__exit_status or 0
+
+    def must_end(self, exit_status: int) -> None:
+        """Have `spin` end, and return at once; for signal handlers too."""
+        if self.__exit_status is None:
+            self.__exit_status = exit_status
+        os.write(self.__wake_up, b'.')
+
+    def shutdown(self) -> None:
+        """End all that was started, and wait for that."""
+        if self.__has_ended.is_set():
+            return
+        if self.__runtime is not None:
+            self.__runtime.end()
+        if self.__bonds is not None:
+            self.__bonds.end()
+        self.__has_ended.set()
+        self.__outbox.close(2.0)
+        _flush(self.__events, self.__status)
+
+    def handle_capability_events(self, event: CapabilityEvent) -> None:
+        """Do nothing: what the server knows it does not know from messages."""
+
+    # the audience of the runtime
+
+    def told(self, event: str, capability: str, provider: str, pid: int) -> None:
+        """Publish an event."""
+        message = event_message(event, capability, provider, pid, time.time())
+        self.__outbox.put(lambda: self.__events.publish(message))
+
+    def status(self, entries: List[StatusEntry]) -> None:
+        """Publish the status, unless it has changed again before it comes to that."""
+        self.__entries = entries
+        self.__outbox.put(self.__publish_status)
+
+    # how it serves
+
+    def __load_capabilities(self) -> None:
+        """Read the specs that are exported and not filtered out."""
+        self.__spec_index = load_specs(self.__package_paths, self.__parameters)
+
+    def __populate_default_providers(self) -> None:
+        """Find the default providers; SystemExit if one cannot be one."""
+        try:
+            self.__catalogue = catalogue_of(self.__spec_index, self.__parameters)
+        except InvalidConfiguration as error:
+            _log_faults(error)
+            raise SystemExit(_BAD_CONFIGURATION) from None
+
+    def __stop_capability(self, name: str) -> None:
+        """Stop a capability; what is wrong is only logged."""
+        try:
+            if self.__runtime is None:
+                raise RuntimeError("No Capability '%s' running" % name)
+            self.__runtime.stop(name)
+        except RuntimeError as error:
+            _logger.error('%s', error)
+
+    def __serve(self) -> None:
+        parameters = self.__parameters
+        assert self.__catalogue is not None
+        runtime = self.__runtime = Runtime(self, self.__catalogue, parameters.keep_dependents,
+                                           parameters.ends_without_nodelet_manager)
+        self.__bonds = Bonds(rospy.resolve_name('~bonds'), runtime.bond_broken, self.__outbox.put)
+        services = Services(runtime, self.__bonds, self.__status_message, self.__reload)
+        services.advertise_status()
+        self.status([])
+        _warn_of_other_servers(self.__name)
+        run = ServerRun.new(self.__name, rosgraph.get_master_uri())
+        end_leftovers(run, _logger.warning)
+        if self.__exit_status is not None:
+            return
+        runtime.manager = LaunchManager(
+            screen=parameters.use_screen, nodelet_manager_name=parameters.nodelet_manager_name,
+            listener=runtime, run=run, nodelet_manager=parameters.nodelet_manager)
+        services.advertise()
+        self.__ready = True
+        self.__outbox.put(lambda: self.__events.publish(ready_message()))
+        self.status(self.__entries)
+        _logger.info('capability server ready')
+        if DiagnosticArray is not None:
+            threading.Thread(target=self.__diagnose, name='diagnostics', daemon=True).start()
+        runtime.autostart(parameters.autostart)
+        os.read(self.__wake_up_read, 1)
+
+    def __reload(self) -> Catalogue:
+        return read_catalogue(self.__package_paths, self.__parameters)
+
+    def __greeting(self) -> Optional[CapabilityEvent]:
+        """What somebody is told who has just subscribed to the events."""
+        return ready_message() if self.__ready else None
+
+    def __status_message(self) -> CapabilityStatuses:
+        return status_message(self.__entries, self.__name, self.__ready, time.time())
+
+    def __publish_status(self) -> None:
+        message = self.__status_message()
+        published = self.__published
+        if published is None or (message.ready, message.capabilities) != (
+                published.ready, published.capabilities):
+            self.__published = message
+            self.__status.publish(message)
+
+    def __diagnose(self) -> None:
+        publisher = rospy.Publisher('/diagnostics', DiagnosticArray, queue_size=10)
+        while not self.__has_ended.wait(1.0):
+            publisher.publish(diagnostics_message(self.__entries, self.__name, time.time()))
+
+
+class _Greeting(rospy.SubscribeListener):   # type: ignore[misc]
+    """Tells each new subscriber of a topic, and no other, what those before it were told."""
+
+    def __init__(self, message: Callable[[], Optional[CapabilityEvent]]) -> None:
+        super().__init__()
+        self._message = message
+
+    def peer_subscribe(self, topic_name: str, topic_publish: Publish,
+                       peer_publish: Publish) -> None:
+        message = self._message()
+        if message is not None:
+            peer_publish(message)
+
+
+def _flush(*publishers: rospy.Publisher) -> None:
+    """Wait, a second at most, until what was published has been handed to the system."""
+    deadline = time.monotonic() + 1.0
+    for publisher in publishers:
+        for connection in list(getattr(publisher.impl, 'connections', None) or ()):
+            while getattr(connection, '_queue', None) and time.monotonic() < deadline:
+                time.sleep(0.01)
+
+
+def _warn_of_other_servers(name: str) -> None:
+    """Warn of servers of other names at this master: neither knows what the other starts."""
+    try:
+        services = rosgraph.Master(name).getSystemState()[2]
+    except (OSError, rosgraph.MasterException):
+        return
+    for service, _ in services:
+        server, _, own_name = service.rpartition('/')
+        if own_name == 'establish_bond' and server != name:
+            _logger.warning('there is another capability server, %s; neither knows what the other '
+                            'starts', server)
+
+
+def _log_faults(error: InvalidConfiguration) -> None:
+    for line in error.lines:
+        _logger.error('%s', line)
+
+
+def create_parser() -> argparse.ArgumentParser:
+    """
+    The command line of the node.
+
+    :returns: ``argparse.ArgumentParser``
+    """
+    parser = argparse.ArgumentParser(
+        prog='capability_server', description='Starts the capabilities of a robot for those who '
+        'need them.')
+    parser.add_argument('package_path', nargs='?',
+                        help='folders in which packages with capabilities are looked for, '
+                             'separated by colons (default: ROS_PACKAGE_PATH)')
+    parser.add_argument('-s', '--screen', action='store_true',
+                        help='show the output of all nodes that are started')
+    return parser
+
+
+def main(sysargv: Optional[List[str]] = None) -> int:
+    """
+    Run the node.
+
+    :param sysargv: list of str, the arguments without the name of the program; None for those of
+        this process. ROS remappings among them are left out.
+    :returns: int, the exit status
+    :raises SystemExit: with a text, if no package paths are given; with status 255 if the
+        configuration is at fault
+    """
+    signal.signal(signal.SIGINT, _leave)        # where it was inherited as ignored, too
+    signal.signal(signal.SIGTERM, _leave)
+    arguments = create_parser().parse_args(
+        rospy.myargv(sys.argv if sysargv is None else [sys.argv[0], *sysargv])[1:])
+    package_path = arguments.package_path or os.environ.get('ROS_PACKAGE_PATH', '')
+    package_paths = [path for path in package_path.split(os.pathsep) if path]
+    if not package_paths:
+        raise SystemExit('No package paths specified: give them as an argument, or set '
+                         'ROS_PACKAGE_PATH.')
+    if arguments.package_path:      # so that what is started finds those packages too
+        known = os.environ.get('ROS_PACKAGE_PATH')
+        os.environ['ROS_PACKAGE_PATH'] = os.pathsep.join(
+            ([known] if known else []) + package_paths)
+    rospy.init_node('capability_server', disable_signals=True)
+    try:
+        server = CapabilityServer(package_paths, screen=arguments.screen)
+    except InvalidConfiguration as error:
+        _log_faults(error)
+        return _finish(_BAD_CONFIGURATION)
+    for number in signal.SIGINT, signal.SIGTERM:
+        signal.signal(number, lambda number, frame: server.must_end(0))
+    try:
+        status = server.spin()
+    except SystemExit:
+        status = _BAD_CONFIGURATION
+    return _finish(status)
+
+
+def _leave(number: int, frame: object) -> None:
+    """End at once on a signal: nothing was started so far."""
+    raise SystemExit(0)
+
+
+def _finish(status: int) -> int:
+    """End the node, and the process even if a thread of the libraries hangs."""
+    rospy.signal_shutdown('the capability server has ended')
+    logging.shutdown()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)

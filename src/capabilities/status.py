@@ -1,0 +1,66 @@
+"""What the capability server says about each capability that is wanted, ends or has failed."""
+from __future__ import annotations
+
+from typing import List, NamedTuple, Tuple
+
+from capabilities.instances import NO_EXIT_CODE, CapabilityInstance
+from capabilities.roster import Roster
+
+__all__ = ['FAILED', 'StatusEntry', 'status_entries']
+
+#: the state of what ended unasked or could not start; it has no instance
+FAILED = 'failed'
+
+
+class StatusEntry(NamedTuple):
+    """
+    One capability, as in the message ``CapabilityStatus``.
+
+    >>> StatusEntry('nav/Nav', 'nav/amcl', FAILED, True, 0, (), 0, 12.5, 1, 'exit 1').state
+    'failed'
+    """
+
+    capability: str
+    provider: str
+    #: that of its `State`, or `FAILED`
+    state: str
+    #: was it started explicitly?
+    started: bool
+    #: how many uses it has
+    uses: int
+    #: what depends on it directly, by name
+    dependents: Tuple[str, ...]
+    #: 0 where there is no process
+    pid: int
+    #: since when it is in this state, in seconds since 1970
+    since: float
+    #: -1 where there is none
+    exit_code: int
+    #: what is to be said about it
+    text: str
+
+
+def status_entries(roster: Roster) -> List[StatusEntry]:
+    """
+    What is to be said of all capabilities that are wanted, end, or have failed.
+
+    :param Roster roster: the graph
+    :returns: list of `StatusEntry`, failures last
+
+    >>> status_entries(Roster(lambda: 0.0))
+    []
+    """
+    entries = [_entry(roster, instance) for instance in roster.instances]
+    for failure in roster.failures.values():
+        entries.append(StatusEntry(
+            failure.interface, failure.provider, FAILED, failure.started, failure.uses,
+            failure.dependents, 0, failure.since, failure.exit_code, failure.text))
+    return entries
+
+
+def _entry(roster: Roster, instance: CapabilityInstance) -> StatusEntry:
+    dependents = dict.fromkeys(other.interface for other in roster.dependents(instance))
+    return StatusEntry(
+        instance.interface, instance.provider, instance.state.value, instance.started,
+        instance.reference_count, tuple(dependents), instance.pid or 0, instance.since,
+        NO_EXIT_CODE, '; '.join(instance.notes.values()))
