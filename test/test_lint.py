@@ -174,7 +174,8 @@ def test_an_invalid_manifest_is_found_and_hides_no_other(tmp_path, monkeypatch):
 
 
 def test_rules_that_are_exported_are_read(tmp_path, monkeypatch):
-    folder = make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp')], dance_launch='',
+    folder = make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp')],
+                          dance_launch='<launch/>',
                           dance_rapp='{compatibility: "rocon:/our_robot", launch: dance.launch}',
                           rules_yaml='hardware_platform: {robot: [our_robot]}')
     lines = findings_in(tmp_path, monkeypatch)
@@ -235,11 +236,16 @@ def test_semantic_interfaces(tmp_path, monkeypatch, text, finding):
 
 @pytest.mark.parametrize('text, finding', [
     ('', None),
-    ('launch_file: launch/usb.launch', None),       # relative to the package ...
-    ('launch_file: beside.launch', None),           # ... or to the spec
+    ('launch_file: ../launch/usb.launch', None),
+    ('launch_file: beside.launch', None),
+    ('launch_file: launch/usb.launch',      # relative to the package: the server does not find it
+     "5:14: warning: launch file 'launch/usb.launch' does not exist (did you mean "
+     "'../launch/usb.launch'?)"),
+    ('launch_file: besdie.launch',
+     "5:14: error: launch file 'besdie.launch' does not exist (did you mean 'beside.launch'?)"),
     ('launch_file: lauch/usb.launch',
      "5:14: error: launch file 'lauch/usb.launch' does not exist"),
-    ('launch_file: launch', "5:14: error: launch file 'launch' is not a file"),
+    ('launch_file: ../launch', "5:14: error: launch file '../launch' is not a file"),
     ('launch_file: ../../../etc/passwd',
      "5:14: error: launch file '../../../etc/passwd' is outside the package"),
     ('launch_file: /etc/passwd', "5:14: error: launch file '/etc/passwd' is outside the package"),
@@ -272,10 +278,39 @@ def test_providers(tmp_path, monkeypatch, text, finding):
     led = USB_CAMERA.replace('usb_camera', 'led').replace('Camera', 'Light')
     lines = found(tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA,
                   interfaces__Light_yaml=light, providers__usb_camera_yaml=USB_CAMERA + text,
-                  providers__led_yaml=led, launch__usb_launch='', providers__beside_launch='')
+                  providers__led_yaml=led, launch__usb_launch='<launch/>',
+                  providers__beside_launch='<launch/>')
     assert [line.partition(' (did you mean')[0] if finding and 'did you' not in finding else line
             for line in lines] == (
         [] if finding is None else ['providers/usb_camera.yaml:' + finding])
+
+
+def test_a_provider_of_a_semantic_interface_may_be_preferred_for_what_it_redefines(
+        tmp_path, monkeypatch):
+    front = ('name: Front\nspec_version: 1\nspec_type: semantic_interface\n'
+             'redefines: ours/Camera\n')
+    light = CAMERA.replace('Camera', 'Light')
+    led = USB_CAMERA.replace('usb_camera', 'led').replace('Camera', 'Light')
+    for preferred, count in ('ours/usb_camera', 0), ('ours/led', 1):
+        lines = found(
+            tmp_path / preferred, monkeypatch, interfaces__Camera_yaml=CAMERA,
+            interfaces__Light_yaml=light, semantic__Front_yaml=front,
+            providers__usb_camera_yaml=USB_CAMERA.replace('ours/Camera', 'ours/Front'),
+            providers__led_yaml=led + 'depends_on: {ours/Camera: {provider: %s}}' % preferred)
+        assert len(lines) == count and all("not 'ours/Camera'" in line for line in lines)
+
+
+@pytest.mark.parametrize('content, finding', [
+    ('<launch>', '1:9: error: launch file is not XML: no element found'),
+    ('\n<robot/>', "2:1: error: launch file has '<robot>' at its top, expected <launch>"),
+    ('<launch>\n <launch/></launch>', '2:2: error: launch file has a second <launch>'),
+])
+def test_what_is_wrong_in_a_launch_file_is_found_in_it_and_once(
+        tmp_path, monkeypatch, content, finding):
+    assert found(tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA,
+                 providers__usb_camera_yaml=USB_CAMERA + 'launch_file: ../rapps/dance.launch',
+                 rapps__dance_rapp=DANCE, rapps__sing_rapp=DANCE,
+                 rapps__dance_launch=content) == ['rapps/dance.launch:' + finding]
 
 
 def test_a_provider_of_nothing_and_two_specs_of_one_name_are_errors(tmp_path, monkeypatch):
@@ -306,7 +341,7 @@ def test_a_provider_of_nothing_and_two_specs_of_one_name_are_errors(tmp_path, mo
      ["1:16: warning: compatibility: 'rocon://kobuki' is read as 'rocon:/kobuki', since kobuki is "
       'a hardware_platform and no concert']),
     (DANCE.replace('dance.launch', 'dnace.launch'),
-     ["2:9: error: launch file 'dnace.launch' does not exist"]),
+     ["2:9: error: launch file 'dnace.launch' does not exist (did you mean 'dance.launch'?)"]),
     (DANCE.replace('dance.launch', '../../../etc/passwd'),
      ["2:9: error: launch file '../../../etc/passwd' is outside the package"]),
     (DANCE + 'icon: dance.png', ["3:7: warning: icon 'dance.png' does not exist"]),
@@ -347,7 +382,7 @@ required_capabilities:
 ])
 def test_rapps(tmp_path, monkeypatch, text, findings):
     assert found(tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA, rapps__dance_rapp=text,
-                 rapps__motion_rapp='{}', rapps__dance_launch='') == [
+                 rapps__motion_rapp='{}', rapps__dance_launch='<launch/>') == [
         'rapps/dance.rapp:' + finding for finding in findings]
 
 

@@ -7,6 +7,7 @@ from rocon_uri.sources.wording import quoted
 from rocon_uri.grammar import is_rocon_app
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import ERROR, WARNING
+from rocon_uri.lint.launch_files import check_launch_file
 from rocon_uri.apps.rapp import GROUPS_OF_REMAPPINGS, KEYS, TYPES_OF_REMAPPINGS
 from rocon_uri.sources.yaml_data import YamlMapping, YamlSequence
 
@@ -48,7 +49,7 @@ def check_rapp(rapp: Rapp, package_folder: str, surroundings: Surroundings) -> L
     folder = os.path.dirname(file.path)
     findings: List[Finding] = []
     for key, what, if_missing in (
-            ('icon', 'icon', WARNING), ('launch', 'launch file', ERROR),
+            ('icon', 'icon', WARNING),
             ('public_interface', 'public_interface', ERROR),
             ('public_parameters', 'public_parameters', ERROR)):
         name = rapp.source.get(key)
@@ -56,6 +57,9 @@ def check_rapp(rapp: Rapp, package_folder: str, surroundings: Surroundings) -> L
             path = file.check_file(name, what, rapp.position(key), folder, if_missing=if_missing)
             if path is not None and key.startswith('public_'):
                 findings += _check_public_file(key, path, package_folder)
+    if rapp.launch is not None:
+        findings += check_launch_file(rapp.launch, rapp.position('launch'), file,
+                                      surroundings.launch_files)
     for item in rapp.source.get('required_capabilities') or ():
         _check_required_capability(item, file, surroundings)
     return findings + file.findings

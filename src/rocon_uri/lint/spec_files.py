@@ -1,11 +1,11 @@
 """What can be wrong in a capability spec that can be read."""
 from __future__ import annotations
 
-import os
-
 from capabilities.specs.common import InvalidSpec
 from rocon_uri.sources.wording import quoted
 from rocon_uri.lint.checked_file import NOWHERE, CheckedFile
+from rocon_uri.lint.finding import WARNING
+from rocon_uri.lint.launch_files import check_launch_file
 from rocon_uri.sources.yaml_data import YamlMapping, YamlSequence
 
 TYPE_CHECKING = False
@@ -75,9 +75,9 @@ def _check_semantic_interface(spec: SemanticCapabilityInterface, file: CheckedFi
 def _check_provider(spec: CapabilityProvider, file: CheckedFile,
                     surroundings: Surroundings) -> None:
     if spec.launch_file is not None:
-        # The old capability server looked beside the spec; people also write it from the package.
-        file.check_file(spec.launch_file, 'launch file', _place(spec, 'launch_file'),
-                        file.package_folder, os.path.dirname(file.path))
+        # The capability server looks beside the spec; people also write it from the package.
+        file.findings += check_launch_file(spec.launch_file, _place(spec, 'launch_file'), file,
+                                           surroundings.launch_files, if_in_package=WARNING)
     interface = surroundings.interface(spec.implements)
     if interface is not None:
         for kind, new_names in _remappings(spec).items():
@@ -103,7 +103,8 @@ def _check_dependency(dependency: Any, spec: CapabilityProvider, file: CheckedFi
     place = given[name].value_position('provider')
     if file.check_exists(preferred, 'preferred provider', surroundings.providers, place):
         implemented = surroundings.providers[preferred].implements
-        if implemented != name:
+        redefined = getattr(surroundings.capabilities.get(implemented), 'redefines', None)
+        if name not in (implemented, redefined):
             file.error('preferred provider %s implements %s, not %s' % (
                 quoted(preferred), quoted(implemented), quoted(name)), place)
 

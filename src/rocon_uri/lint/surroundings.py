@@ -8,6 +8,7 @@ from capabilities.specs.common import InvalidSpec
 from rocon_uri.package_rules import vocabulary_from_package_index
 from rocon_uri.apps.rapps import (
     rapp_file_index_from_package_index, rapps_from_rapp_file_index, with_inheritance)
+from rocon_uri.sources.launch_file import LaunchFiles
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -30,10 +31,12 @@ class Surroundings:
     - ``rapps``: dict of `rocon_uri.rapp.Rapp` by name, with what they have from their parents;
       ``own_rapps`` of those that can be read, with what they say themselves
     - ``vocabulary``: `rocon_uri.Vocabulary`
+    - ``launch_files``: `LaunchFiles`, those that were looked at
     - ``faults``: list of what could not be read, or not be used as it is
     """
 
     def __init__(self, package_index: Dict[str, Any]) -> None:
+        self.launch_files = LaunchFiles()
         self.spec_index, spec_faults = spec_index_from_spec_file_index(
             spec_file_index_from_package_index(package_index))
         self.capabilities: Dict[str, Any] = {**self.spec_index.interfaces,

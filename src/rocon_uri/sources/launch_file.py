@@ -42,7 +42,7 @@ NOT_XML = 'launch-not-xml'
 NO_LAUNCH = 'launch-no-launch'
 
 _MAX_FILES = 65536      # that are remembered; one takes about 1 KiB
-_MAX_NAMES = 1000       # of a folder, among which a near miss is looked for
+_MAX_NAMES = 200        # of launch files in a folder; among more no near miss is looked for
 _NODELET_MANAGER = [argument.encode(encoding) for encoding in ('ascii', 'utf-16-le', 'utf-16-be')
                     for argument in ['capability_server_nodelet_manager_name']]
 
@@ -254,11 +254,13 @@ def _alternatives(name: str, folder: str, package: Optional[str]) -> Tuple[str, 
     """What could have been named in place of a file that is not there."""
     beside, own_name = os.path.split(name)
     try:
-        names = sorted(os.listdir(os.path.join(folder, beside)))[:_MAX_NAMES]
+        names = sorted(os.listdir(os.path.join(folder, beside)))
     except OSError:
         names = []
     found = [os.path.join(beside, other) for other in names     # not a link that leads nowhere
              if other.endswith(('.launch', '.xml')) and other != own_name]
+    if len(found) > _MAX_NAMES:
+        found = []
     if package is not None and os.path.isfile(os.path.join(package, name)):
         found.append(os.path.relpath(os.path.join(package, name), folder))
     return tuple(found)
