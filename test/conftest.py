@@ -1,4 +1,12 @@
 """How the tests run, wherever they run."""
+from __future__ import annotations
+
+import sys
+import threading
+import traceback
+from typing import Any, Iterator, List
+
+import pytest
 from hypothesis import Phase, settings
 
 settings.register_profile('rocon_uri', deadline=None)     # a busy machine is no failure
@@ -6,3 +14,39 @@ settings.register_profile(      # where it matters that a test fails, and not of
     'no_shrinking', deadline=None, report_multiple_bugs=False,
     phases=[Phase.explicit, Phase.generate])
 settings.load_profile('rocon_uri')
+
+_unhandled: List[str] = []      # exceptions that ended a thread, or were raised in a __del__
+
+
+def _note(unhandled: Any) -> None:
+    """Keep an exception that nobody handles, of which Python only tells stderr."""
+    if unhandled.exc_type is not SystemExit:
+        where = getattr(unhandled, 'thread', None) or getattr(unhandled, 'object', None)
+        _unhandled.append('unhandled in %r:\n%s' % (where, ''.join(traceback.format_exception(
+            unhandled.exc_type, unhandled.exc_value, unhandled.exc_traceback))))
+
+
+@pytest.hookimpl(trylast=True)     # after the plugins, whose hooks these replace
+def pytest_configure(config: Any) -> None:
+    """Hear of what nobody handles; newer pytests warn of it, that of Ubuntu 20.04 does not."""
+    for name in 'threadexception', 'unraisableexception':
+        plugin = config.pluginmanager.get_plugin(name)
+        if plugin is not None:
+            config.pluginmanager.unregister(plugin)
+    threading.excepthook = sys.unraisablehook = _note
+
+
+@pytest.fixture(autouse=True)
+def _fails_of_what_nobody_handles() -> Iterator[None]:
+    """Fail the test in which a thread ended with an exception, or a __del__ raised one."""
+    yield
+    if _unhandled:
+        text = '\n'.join(_unhandled)
+        _unhandled.clear()
+        pytest.fail(text, pytrace=False)
+
+
+def pytest_sessionfinish() -> None:
+    """Fail the run if there was such a one after the last test."""
+    if _unhandled:
+        raise RuntimeError('\n'.join(_unhandled))

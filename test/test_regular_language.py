@@ -10,12 +10,12 @@ import gc
 import itertools
 import random
 import re
-import threading
 import tracemalloc
 from functools import reduce
 from operator import or_
 
 import pytest
+from at_once import at_once
 from fuzz.name_pattern import is_easy_for_re
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
@@ -575,20 +575,35 @@ def test_threads_get_right_answers_from_one_language():
     rng = random.Random(11)
     names = ['a' + ''.join(rng.choices('ab', k=40)) for _ in range(300)]
     expected = [name[-13] == 'a' for name in names]
-    wrong, ready = [], threading.Barrier(16)
+    for answers in at_once(lambda: [found.matches(name) for name in names * 3]):
+        assert answers == expected * 3
 
-    def match_all() -> None:
-        ready.wait()
-        for _ in range(3):
-            if [found.matches(name) for name in names] != expected:
-                wrong.append(threading.current_thread().name)
 
-    threads = [threading.Thread(target=match_all) for _ in range(16)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert not wrong
+class SharedMemo(dict):
+    """A memo to which another thread adds while it is walked over, unless the lock keeps it out."""
+
+    def __init__(self, memo, lock):
+        super().__init__(memo)
+        self.lock = lock
+
+    def values(self):
+        for index, state in enumerate(super().values()):
+            yield state
+            if self.lock.acquire(blocking=False):
+                self.lock.release()
+                self[-1 - index] = state
+
+
+def test_no_thread_adds_to_a_memo_while_it_is_emptied():
+    found = language('.*a[ab]{12}')
+    rng = random.Random(11)
+    names = ['a' + ''.join(rng.choices('ab', k=40)) for _ in range(300)]
+    emptied = 0
+    for name in names:
+        before = found._earlier = SharedMemo(found._earlier, found._lock)
+        assert found.matches(name) == (name[-13] == 'a')
+        emptied += found._earlier is not before
+    assert emptied > 2
 
 
 def test_only_legal_names_are_matched_by_anything():

@@ -10,6 +10,7 @@ from sources import SOURCE
 # Each thread starts with what is bundled and meets a value that is not, at the same time.
 CODE = '''
 import sys, threading
+from concurrent.futures import ThreadPoolExecutor
 opened = []
 sys.addaudithook(lambda event, arguments: opened.append(arguments[0])
                  if event == 'open' and arguments[1] and 'robots.json' in str(arguments[0])
@@ -38,17 +39,13 @@ def questions(number):
 
 THREADS = 16
 together = threading.Barrier(THREADS)
-answers = [None] * THREADS
 
 def ask(number):
     together.wait()
-    answers[number] = [[answer(*question) for question in questions(number)] for _ in range(5)]
+    return [[answer(*question) for question in questions(number)] for _ in range(5)]
 
-threads = [threading.Thread(target=ask, args=(number,)) for number in range(THREADS)]
-for thread in threads:
-    thread.start()
-for thread in threads:
-    thread.join()
+with ThreadPoolExecutor(THREADS) as pool:
+    answers = list(pool.map(ask, range(THREADS)))       # raises what a thread raises
 
 for number in range(THREADS):
     expected = [answer(*question) for question in questions(number)]     # by one thread, afterwards

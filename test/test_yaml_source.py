@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -459,17 +460,17 @@ def test_a_file_that_changes_while_it_is_read(tmp_path):
             path.write_text('a: [' * 10000)
             path.write_text('a: b')
 
-    writer = threading.Thread(target=change)
-    writer.start()
-    try:
-        for _ in range(200):
-            try:
-                assert load_file(path) in ({'a': 'b'}, None)
-            except YamlError:
-                pass
-    finally:
-        done.set()
-        writer.join()
+    with ThreadPoolExecutor(1) as pool:
+        writer = pool.submit(change)
+        try:
+            for _ in range(200):
+                try:
+                    assert load_file(path) in ({'a': 'b'}, None)
+                except YamlError:
+                    pass
+        finally:
+            done.set()
+        writer.result()     # raises what it raised
 
 
 def test_a_place_is_one_line_whatever_the_file_is_called():

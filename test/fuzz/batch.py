@@ -6,6 +6,7 @@ decides what it answers, and returns an input; ``check`` takes one and raises wh
 """
 from __future__ import annotations
 
+import logging
 import multiprocessing
 import random
 import resource
@@ -18,6 +19,8 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 TARGETS = ('uri', 'name_pattern', 'spec_file', 'rapp_file', 'package_exports', 'message')
+
+LOGGERS = ('capabilities', 'catkin_pkg', 'rosout')      # of what is damaged they say a lot
 
 SECONDS = 10            # of the processor, for one input
 MEMORY = 2 << 30        # bytes of addresses, for the whole process
@@ -70,6 +73,9 @@ def run_batch(target, seed, inputs):
 
 
 def _run(target, seed, inputs, tried, last, sender):
+    for name in LOGGERS:
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+
     @st.composite
     def an_input(draw):
         return target.make(Drawn(draw))

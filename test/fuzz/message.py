@@ -1,7 +1,6 @@
 """RoconURI messages from anybody: their fields as a program sets them, and as bytes on the wire."""
 from __future__ import annotations
 
-import logging
 import sys
 from io import BytesIO
 from types import SimpleNamespace
@@ -18,7 +17,6 @@ from rocon_uri.messages import from_msg, to_msg
 from rocon_uri.name_pattern import read
 from rocon_uri.sources.ros_names import is_legal_base_name
 
-logging.getLogger('rosout').setLevel(logging.CRITICAL)     # bytes that are no UTF-8 are logged
 
 NAME = 'rocon_uri/RoconURI'
 try:

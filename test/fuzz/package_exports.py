@@ -1,7 +1,6 @@
 """What packages export, one of them with a damaged manifest: found, indexed and linted."""
 from __future__ import annotations
 
-import logging
 import os
 import tempfile
 from pathlib import Path
@@ -21,8 +20,6 @@ from rocon_uri.package_rules import vocabulary_from_package_index
 from rocon_uri.apps.rapps import InvalidRapp, rapps_from_package_index
 from rocon_uri.sources.yaml_data import YamlError
 
-logging.getLogger('capabilities').setLevel(logging.CRITICAL)
-logging.getLogger('catkin_pkg').setLevel(logging.CRITICAL)
 
 GOOD = {path.parent: path.read_bytes() for path in files('package.xml')}
 TOKENS = [b'<', b'>', b'/>', b'</', b'"', b"'", b'&', b'&amp;', b'&#0;', b'&#x1F916;', b'&#10;',

@@ -1,7 +1,6 @@
 """Rapps, their public interfaces and interactions: read, inherited, linted and judged."""
 from __future__ import annotations
 
-import logging
 import tempfile
 from pathlib import Path
 
@@ -18,7 +17,6 @@ from rocon_uri.lint import ERROR, check_package_index
 from rocon_uri.apps.rapps import InvalidRapp, rapp_from_string, rapps_from_package_index, runnable
 from rocon_uri.sources.yaml_data import YamlMapping
 
-logging.getLogger('capabilities').setLevel(logging.CRITICAL)
 
 OTHERS = package_index_from_package_path(str(ROOT / 'examples/workspace/cafe_capabilities'))
 SPECS, _ = spec_index_from_spec_file_index(spec_file_index_from_package_index(OTHERS))

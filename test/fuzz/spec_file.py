@@ -1,7 +1,6 @@
 """Capability specs: damaged as data and as text, of the three kinds."""
 from __future__ import annotations
 
-import logging
 import math
 import os
 import tempfile
@@ -23,7 +22,6 @@ from specs.examples import GOOD as EXAMPLES
 from rocon_uri.sources.yaml_data import YamlError
 from rocon_uri.sources.yaml_source import load
 
-logging.getLogger('capabilities').setLevel(logging.CRITICAL)
 
 KINDS = {
     'interface': (capability_interface_from_string, capability_interface_from_file_path,

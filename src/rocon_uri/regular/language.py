@@ -154,10 +154,12 @@ class Language:
         return state.accepts
 
     def _fresh_memo(self) -> Dict[int, _State]:
-        for state in self._earlier.values():
-            state.clear()       # since they hold each other
-        self._earlier, self._memo = self._memo, _new_memo()
-        return self._memo
+        with self._lock:        # others may still add to what is now the earlier memo
+            if len(self._memo) > _STATES - _SPARE:
+                for state in self._earlier.values():
+                    state.clear()       # since they hold each other
+                self._earlier, self._memo = self._memo, _new_memo()
+            return self._memo
 
     def _derivative(self, memo: Dict[int, _State], state: _State, octet: int) -> _State:
         earlier = self._earlier.get(state.positions, state).get(octet)
