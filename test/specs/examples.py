@@ -75,11 +75,11 @@ GOOD = _of('interface', INTERFACE, [
 ]
 
 BAD = _bad('interface', '', [
-    ('', '1:1: nothing there, expected a spec, which is a mapping'),
-    ('# nothing', '1:1: nothing there, expected a spec, which is a mapping'),
-    ('- name: Camera', '1:1: found a list, expected a spec, which is a mapping'),
-    ('Camera', "1:1: found 'Camera', expected a spec, which is a mapping"),
-    ('3', '1:1: found 3, expected a spec, which is a mapping'),
+    ('', '1:1: the spec is empty, expected a mapping'),
+    ('# nothing', '1:1: the spec is empty, expected a mapping'),
+    ('- name: Camera', '1:1: the spec is a list, expected a mapping'),
+    ('Camera', "1:1: the spec is 'Camera', expected a mapping"),
+    ('3', '1:1: the spec is 3, expected a mapping'),
     ('{}', '1:1: the spec has no spec_type'),
     ('name: Camera\nspec_version: 1', '1:1: the spec has no spec_type'),
     ('spec_type:\nname: Camera', '1:1: the spec has no spec_type'),
@@ -148,7 +148,7 @@ BAD = _bad('interface', '', [
     ('interface: {dynamic_parameters: [gain, 3]}',
      '4:40: the name of a dynamic_parameter is 3, expected text'),
     ('interface: {dynamic_parameters: [gain, gain]}',
-     "4:40: dynamic_parameter 'gain' is there twice"),
+     "4:40: duplicate dynamic_parameter 'gain'"),
 ]) + _bad('provider', '', [
     ('name: camera\nspec_version: 1\nspec_type: provider', '1:1: the spec has no implements'),
     ('name: camera\nspec_version: 1\nspec_type: provider\nimplement: a/B',
@@ -169,16 +169,17 @@ BAD = _bad('interface', '', [
     ('depends_on: [a/B, 3]', '5:19: depends_on is 3, expected package/name'),
     ('depends_on: [{a/B: {provider: c/d}}]',
      '5:14: depends_on is a mapping, expected package/name'),
-    ('depends_on: [a/B, a/B]', "5:19: 'a/B' is there twice"),
+    ('depends_on: [a/B, a/B]', "5:19: duplicate dependency 'a/B'"),
     ('depends_on: {~: }', '5:14: depends_on is empty, expected package/name'),
     ('depends_on: {B: }', "5:14: depends_on is 'B', expected package/name"),
     ('depends_on: {a/B: c/d}',
      "5:19: depends_on 'a/B' is 'c/d', expected a mapping"),
     ('depends_on: {a/B: {providr: c/d}}',
-     "5:20: unknown condition 'providr' in depends_on (did you mean 'provider'?)"),
-    ('depends_on: {a/B: {provider: d}}', "5:30: provider is 'd', expected package/name"),
+     "5:20: unknown condition 'providr' in depends_on 'a/B' (did you mean 'provider'?)"),
+    ('depends_on: {a/B: {provider: d}}',
+     "5:30: provider of depends_on 'a/B' is 'd', expected package/name"),
     ('depends_on: {a/B: {provider: [c/d]}}',
-     '5:30: provider is a list, expected package/name'),
+     "5:30: provider of depends_on 'a/B' is a list, expected package/name"),
     ('remappings: image', "5:13: remappings is 'image', expected a mapping"),
     ('remappings: {image: left/image}', "5:14: unknown kind 'image' in remappings (expected "
                                         'topics, services, actions, parameters)'),
@@ -207,17 +208,18 @@ BAD = _bad('interface', '', [
 # What a JSON Schema cannot refuse, by the reason.
 BEYOND_SCHEMAS = {
     'it sees the data, in which a key is there once': _bad('interface', INTERFACE, [
-        ('name: Camera', "4:1: 'name' is there twice"),
-        ('interface: {topics: {}, topics: {}}', "4:25: 'topics' is there twice"),
-        ('interface: {topics: {provides: {}, provides: {}}}', "4:36: 'provides' is there twice"),
+        ('name: Camera', "4:1: duplicate key 'name'"),
+        ('interface: {topics: {}, topics: {}}', "4:25: duplicate key 'topics'"),
+        ('interface: {topics: {provides: {}, provides: {}}}', "4:36: duplicate key 'provides'"),
         ('interface: {topics: {image: {type: a/B}, image: {type: a/B}}}',
-         "4:42: 'image' is there twice"),
+         "4:42: duplicate key 'image'"),
         ('interface: {topics: {image: {type: a/B, type: a/B}}}',
-         "4:41: 'type' is there twice in topic 'image'"),
+         "4:41: duplicate key 'type' in topic 'image'"),
     ]) + _bad('provider', PROVIDER, [
-        ('depends_on: {a/B: , a/B: }', "5:21: 'a/B' is there twice"),
-        ('depends_on: {a/B: {provider: c/d, provider: c/d}}', "5:35: 'provider' is there twice"),
-        ('remappings: {topics: {}, topics: {}}', "5:26: 'topics' is there twice"),
+        ('depends_on: {a/B: , a/B: }', "5:21: duplicate key 'a/B'"),
+        ('depends_on: {a/B: {provider: c/d, provider: c/d}}',
+         "5:35: duplicate key 'provider' in depends_on 'a/B'"),
+        ('remappings: {topics: {}, topics: {}}', "5:26: duplicate key 'topics'"),
         ('remappings: {topics: {image: a, image: b}}',
          "5:33: 'image' is remapped to 'a' and to 'b'"),
         ('remappings: {topics: {image: a, image: b, image: a}}',
@@ -225,9 +227,9 @@ BEYOND_SCHEMAS = {
     ]),
     'it cannot compare the keys of two objects': _bad('interface', INTERFACE, [
         ('interface: {topics: {provides: {a: {type: b/C}}, requires: {a: {type: b/C}}}}',
-         "4:61: topic 'a' is there twice"),
+         "4:61: duplicate topic 'a'"),
         ('interface: {topics: {a: {type: b/C}, requires: {a: {type: b/C}}}}',
-         "4:49: topic 'a' is there twice"),
+         "4:49: duplicate topic 'a'"),
     ]) + _bad('provider', PROVIDER, [
         ('remappings: {topics: {image: a}, services: {image: b}}',
          "5:45: 'image' is remapped to 'a' and to 'b'"),
@@ -255,11 +257,11 @@ ODD = _bad('interface', INTERFACE, [
     ('interface: {topics: {image: {type: a/B, typ: c}}}',
      "4:41: unknown key 'typ' in topic 'image' (did you mean 'type'?)"),
     ('interface: {topics: {image: {description: a, type: a/B, description: b}}}',
-     "4:57: 'description' is there twice in topic 'image', the last one counts"),
+     "4:57: duplicate key 'description' in topic 'image', the last one counts"),
 ]) + _bad('provider', PROVIDER, [
     ('launch_fil: a', "5:1: unknown key 'launch_fil' in the spec (did you mean 'launch_file'?)"),
     ('remappings: {topics: {image: a, image: a}}',
-     "5:33: 'image' is remapped twice, to the same"),
+     "5:33: duplicate key 'image', remapped to the same name"),
 ]) + _bad('semantic_interface', SEMANTIC, [
     ('interface: {}', "5:1: unknown key 'interface' in the spec (expected name, spec_version, "
                       'spec_type, description, redefines, global_namespace, remappings)'),

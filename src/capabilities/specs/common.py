@@ -141,16 +141,16 @@ class CapabilitySpec:
         self.spec_version = spec_version
         self.description = NO_DESCRIPTION if description is None else description
         self.file_name: Optional[str] = None
-        self.source: Optional[Dict[Any, Any]] = None
+        self.source: Optional[Dict[str, Any]] = None
         self.warnings: Tuple[SpecWarning, ...] = ()
 
-    def to_dict(self) -> Dict[str, Any]:
+    def to_dict(self) -> Dict[str, object]:
         """
         The spec as plain data, in the order of the file.
 
         :returns: dict, from which ``..._from_dict`` makes an equal spec
         """
-        head = {'name': str(self.name), 'spec_version': self.spec_version,
+        head: Dict[str, object] = {'name': str(self.name), 'spec_version': self.spec_version,
                 'spec_type': self.spec_type}
         if self.description != NO_DESCRIPTION:
             head['description'] = str(self.description)
@@ -162,7 +162,7 @@ class CapabilitySpec:
 
         :returns: str, from which ``..._from_string`` makes an equal spec
         """
-        import yaml     # here, since who only reads JSON or makes specs by hand need not have it
+        import yaml     # here, since specs can be made and compared without it
         text: str = yaml.safe_dump(self.to_dict(), sort_keys=False, default_flow_style=False)
         return text
 

@@ -26,60 +26,26 @@ interface (did you mean 'topics'?)
 """
 from __future__ import annotations
 
-from capabilities.specs._reading import (
-    SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string, value_place)
-from capabilities.specs.common import NO_DESCRIPTION, CapabilitySpec, InvalidSpec
-from capabilities.specs.interface_sections import GROUPINGS, SECTIONS, Interface
-from rocon_uri.sources.wording import did_you_mean, near_misses, shown
+from os import PathLike
+from typing import IO, Any, Dict, Mapping, Optional, Union
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from os import PathLike
-    from typing import IO, Any, Dict, Optional, Union
+from capabilities.specs._reading import (
+    SpecReading, load_spec_file, load_spec_file_path, load_spec_string)
+from capabilities.specs.common import NO_DESCRIPTION, CapabilitySpec, InvalidSpec
+from capabilities.specs.interface_sections import (
+    GROUPINGS, SECTIONS, Interface, InterfaceElement)
+from rocon_uri.sources.checked import CheckedMapping
+from rocon_uri.sources.wording import did_you_mean, near_misses, shown
 
 __all__ = ['CapabilityInterface', 'Interface', 'InterfaceElement', 'InvalidInterface',
            'capability_interface_from_dict', 'capability_interface_from_file',
            'capability_interface_from_file_path', 'capability_interface_from_string']
 
-_ELEMENT_KINDS = (*SECTIONS.values(), 'dynamic_parameter')
 _ELEMENT_KEYS = ('type', 'description')
 
 
 class InvalidInterface(InvalidSpec):
     """A capability interface that is not complete, or has an entry that cannot be used."""
-
-
-class InterfaceElement:
-    """
-    One topic, service, action or parameter of an interface.
-
-    :param str name: its ROS name
-    :param str element_kind: ``'topic'``, ``'service'``, ``'action'``, ``'parameter'`` or
-        ``'dynamic_parameter'``
-    :param str element_type: ``package/Type``, or the type of a parameter; ``None`` if there is none
-    :param str description: free text; ``None`` gives ``'No description given.'``
-    :raises ValueError: if the kind is another
-
-    The attributes are ``name``, ``kind``, ``type`` (and ``element_type``) and ``description``.
-
-    >>> InterfaceElement('scan', 'topic', 'sensor_msgs/LaserScan').type
-    'sensor_msgs/LaserScan'
-    """
-
-    def __init__(self, name: str, element_kind: str, element_type: Optional[str] = None,
-                 description: Optional[str] = None) -> None:
-        if element_kind not in _ELEMENT_KINDS:
-            raise ValueError('%s is not a kind of interface element, expected %s' % (
-                shown(element_kind), ', '.join(_ELEMENT_KINDS)))
-        self.name = name
-        self.kind = element_kind
-        self.type = element_type
-        self.description = NO_DESCRIPTION if description is None else description
-
-    @property
-    def element_type(self) -> Optional[str]:
-        """The same as ``type``."""
-        return self.type
 
 
 class CapabilityInterface(Interface, CapabilitySpec):
@@ -110,7 +76,7 @@ class CapabilityInterface(Interface, CapabilitySpec):
         """What the interface is made of, which is itself."""
         return self
 
-    def to_dict(self) -> Dict[str, Any]:
+    def to_dict(self) -> Dict[str, object]:
         """
         The spec as plain data, in the order of the file.
 
@@ -144,7 +110,7 @@ def capability_interface_from_file_path(file_path: Union[str, PathLike[str]]
     return capability_interface_from_dict(*load_spec_file_path(file_path, InvalidInterface))
 
 
-def capability_interface_from_file(file_handle: IO[Any]) -> CapabilityInterface:
+def capability_interface_from_file(file_handle: Union[IO[str], IO[bytes]]) -> CapabilityInterface:
     """
     Read the capability interface in an open file.
 
@@ -170,7 +136,7 @@ def capability_interface_from_string(string: str, file_name: str = '<string>'
     return capability_interface_from_dict(*load_spec_string(string, file_name, InvalidInterface))
 
 
-def capability_interface_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>'
+def capability_interface_from_dict(spec: Mapping[str, object], file_name: str = '<dict>'
                                    ) -> CapabilityInterface:
     """
     Make a capability interface of plain data.
@@ -180,72 +146,59 @@ def capability_interface_from_dict(spec: Dict[Any, Any], file_name: str = '<dict
     :returns: `CapabilityInterface`
     :raises InvalidInterface: if the spec is not complete or has invalid entries
     """
-    source = SpecSource(spec, file_name, 'interface', ('interface',), InvalidInterface)
-    interface = CapabilityInterface(source.name, 1, source.description)
-    sections = source.names_in(spec, 'interface', 'interface')
+    reading = SpecReading(spec, file_name, 'interface', ('interface',), InvalidInterface)
+    interface = CapabilityInterface(reading.name, 1, reading.description)
+    sections = reading.spec.keys_once('interface')
     for section in sections:
         if section in SECTIONS:
-            _read_section(source, interface, section, sections)
+            _read_section(interface, sections, section)
         elif section == 'dynamic_parameters':
-            _read_dynamic_parameters(source, interface, sections)
+            _read_dynamic_parameters(interface, sections)
         else:
-            raise source.error(*source.unknown(
-                'section', sections, section, (*SECTIONS, 'dynamic_parameters'), 'interface'))
-    return source.finished(interface)
+            raise sections.unknown_key(section, (*SECTIONS, 'dynamic_parameters'), 'section')
+    return reading.finished(interface)
 
 
-def _read_section(source: SpecSource, interface: Interface, section: str,
-                  sections: Dict[Any, Any]) -> None:
+def _read_section(interface: Interface, sections: CheckedMapping, section: str) -> None:
     """Add the elements of one section, grouped or not."""
-    elements = source.names_in(sections, section, section)
+    elements = sections.keys_once(section)
     for name in elements:
         if name in GROUPINGS:
-            group = source.names_in(elements, name, '%s of %s' % (name, section))
+            group = elements.keys_once(name, '%s of %s' % (name, section))
             for grouped_name in group:
-                _read_element(source, interface, section, group, grouped_name, name)
+                _read_element(interface, section, group, grouped_name, name)
         else:
-            _read_element(source, interface, section, elements, name, None)
+            _read_element(interface, section, elements, name, None)
 
 
-def _read_element(source: SpecSource, interface: Interface, section: str,
-                  elements: Dict[Any, Any], key: Any, grouping: Optional[str]) -> None:
+def _read_element(interface: Interface, section: str, elements: CheckedMapping, key: object,
+                  grouping: Optional[str]) -> None:
     """Add one element."""
-    kind, element = SECTIONS[section], elements[key]
-    name = source.name_in(elements, key, 'the name of a ' + kind)
-    if element is None:
-        element = {}
-    if not isinstance(element, dict):
-        raise source.error(value_place(elements, name),
-                           kind + ' %s is %s, expected a mapping with a type', name, element)
-    source.check_repeated(element, ('description',), ' in ' + kind + ' %s', name)
-    if element.get('type') is None:
+    kind = SECTIONS[section]
+    name = elements.key_text(key, 'the name of a ' + kind)
+    element = elements.mapping(name, kind + ' %s', 'a mapping with a type', or_empty_list=False)
+    element.refuse_duplicates(harmless=('description',))
+    element_type = element.text('type')
+    if element_type is None:
         near = near_misses(name, GROUPINGS) if grouping is None else []
-        raise source.error(key_place(elements, name),
-                           kind + ' %s has no type' + did_you_mean(near), name)
-    source.warn_of_unknown(element, _ELEMENT_KEYS, kind + ' %s', name)
-    element_type = source.text_in(element, 'type', element['type'], 'type of ' + kind + ' %s', name)
-    description = source.description_in(element, 'description of ' + kind + ' %s', name)
+        raise elements.reading.error('%s has no type%s' % (element.title, did_you_mean(near)),
+                                     elements.key_place(name))
+    element.warn_of_unknown(_ELEMENT_KEYS)
+    description = element.text('description', may_be_empty=True)
     try:
         interface.add_element(
             section, name, InterfaceElement(name, kind, element_type, description), grouping)
     except RuntimeError:
-        raise source.error(key_place(elements, name),
-                           kind + ' %s is there twice', name) from None
+        raise elements.reading.error('duplicate ' + element.title,
+                                     elements.key_place(name)) from None
 
 
-def _read_dynamic_parameters(source: SpecSource, interface: Interface,
-                             sections: Dict[Any, Any]) -> None:
+def _read_dynamic_parameters(interface: Interface, sections: CheckedMapping) -> None:
     """Add the names in the list of dynamic parameters."""
-    names = sections['dynamic_parameters']
-    if names is None or names == {}:
-        return
-    if not isinstance(names, (list, tuple)):
-        raise source.error(value_place(sections, 'dynamic_parameters'),
-                           'dynamic_parameters is %s, expected a list of names', names)
-    for index, name in enumerate(names):
-        source.text_in(names, index, name, 'the name of a dynamic_parameter')
+    names = sections.sequence('dynamic_parameters', expected='a list of names')
+    for index, name in enumerate(names.texts('the name of a dynamic_parameter')):
         try:
             interface.add_dynamic_parameter(name)
         except RuntimeError:
-            raise source.error(value_place(names, index),
-                               'dynamic_parameter %s is there twice', name) from None
+            raise names.reading.error('duplicate dynamic_parameter ' + shown(name),
+                                      names.value_place(index)) from None

@@ -3,21 +3,55 @@ The sections of a capability interface: topics, services, actions and parameters
 """
 from __future__ import annotations
 
+from typing import Dict, Iterator, List, Optional, Tuple
+
+from capabilities.specs.common import NO_DESCRIPTION
 from rocon_uri.sources.wording import quoted, shown
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Dict, Iterator, List, Optional, Tuple
-
-    from capabilities.specs.interface import InterfaceElement
-
-__all__ = ['GROUPINGS', 'SECTIONS', 'Interface']
+__all__ = ['GROUPINGS', 'SECTIONS', 'Interface', 'InterfaceElement']
 
 #: the sections whose elements have a type, with the kind of their elements
 SECTIONS = {'topics': 'topic', 'services': 'service', 'actions': 'action',
             'parameters': 'parameter'}
 #: what may be said of the elements of a section
 GROUPINGS = ('requires', 'provides')
+
+_ELEMENT_KINDS = (*SECTIONS.values(), 'dynamic_parameter')
+
+
+class InterfaceElement:
+    """
+    One topic, service, action or parameter of an interface.
+
+    :param str name: its ROS name
+    :param str element_kind: ``'topic'``, ``'service'``, ``'action'``, ``'parameter'`` or
+        ``'dynamic_parameter'``
+    :param str element_type: ``package/Type``, or the type of a parameter; ``None`` if there is none
+    :param str description: free text; ``None`` gives ``'No description given.'``
+    :raises ValueError: if the kind is another
+
+    The attributes are ``name``, ``kind``, ``type`` (and ``element_type``) and ``description``.
+
+    >>> InterfaceElement('scan', 'topic', 'sensor_msgs/LaserScan').type
+    'sensor_msgs/LaserScan'
+    """
+
+    __module__ = 'capabilities.specs.interface'     # where the specification has it
+
+    def __init__(self, name: str, element_kind: str, element_type: Optional[str] = None,
+                 description: Optional[str] = None) -> None:
+        if element_kind not in _ELEMENT_KINDS:
+            raise ValueError('%s is not a kind of interface element, expected %s' % (
+                shown(element_kind), ', '.join(_ELEMENT_KINDS)))
+        self.name = name
+        self.kind = element_kind
+        self.type = element_type
+        self.description = NO_DESCRIPTION if description is None else description
+
+    @property
+    def element_type(self) -> Optional[str]:
+        """The same as ``type``."""
+        return self.type
 
 
 class Interface:
@@ -28,7 +62,6 @@ class Interface:
     for people, nothing depends on it. What is returned are new containers, in the order in which
     the elements were added.
 
-    >>> from capabilities.specs.interface import InterfaceElement
     >>> interface = Interface()
     >>> interface.add_topic('scan', InterfaceElement('scan', 'topic', 'sensor_msgs/LaserScan'),
     ...                     grouping='provides')

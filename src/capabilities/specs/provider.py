@@ -14,18 +14,16 @@ laser_capability/LaserObservation:
 """
 from __future__ import annotations
 
+from os import PathLike
+from typing import IO, Dict, Mapping, Optional, Union
+
 from capabilities.specs._reading import (
-    SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string, value_place)
+    SpecReading, load_spec_file, load_spec_file_path, load_spec_string)
 from capabilities.specs.common import InvalidSpec, SpecName
 from capabilities.specs.remappings import RemappingSpec, read_remappings
+from rocon_uri.sources.located import Place
 from rocon_uri.sources.wording import shown
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from os import PathLike
-    from typing import IO, Any, Dict, Mapping, Optional, Union
-
-    from capabilities.specs._reading import Place
+from rocon_uri.sources.yaml_data import value_place
 
 __all__ = ['CapabilityProvider', 'DependsOnRelationship', 'InvalidProvider',
            'capability_provider_from_dict', 'capability_provider_from_file',
@@ -138,7 +136,7 @@ class CapabilityProvider(RemappingSpec):
             raise RuntimeError('the provider depends on %s already' % shown(name))
         self._dependencies[name] = DependsOnRelationship(name, provider)
 
-    def to_dict(self) -> Dict[str, Any]:
+    def to_dict(self) -> Dict[str, object]:
         """
         The spec as plain data, in the order of the file.
 
@@ -172,7 +170,7 @@ def capability_provider_from_file_path(file_path: Union[str, PathLike[str]]
     return capability_provider_from_dict(*load_spec_file_path(file_path, InvalidProvider))
 
 
-def capability_provider_from_file(file_handle: IO[Any]) -> CapabilityProvider:
+def capability_provider_from_file(file_handle: Union[IO[str], IO[bytes]]) -> CapabilityProvider:
     """
     Read the capability provider in an open file.
 
@@ -198,7 +196,7 @@ def capability_provider_from_string(string: str, file_name: str = '<string>'
     return capability_provider_from_dict(*load_spec_string(string, file_name, InvalidProvider))
 
 
-def capability_provider_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>'
+def capability_provider_from_dict(spec: Mapping[str, object], file_name: str = '<dict>'
                                   ) -> CapabilityProvider:
     """
     Make a capability provider of plain data.
@@ -208,47 +206,46 @@ def capability_provider_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>
     :returns: `CapabilityProvider`
     :raises InvalidProvider: if the spec is not complete or has invalid entries
     """
-    source = SpecSource(
+    reading = SpecReading(
         spec, file_name, 'provider',
         ('implements', 'launch_file', 'depends_on', 'remappings', 'nodelet_manager'),
         InvalidProvider)
     provider = CapabilityProvider(
-        source.name, 1, source.spec_name('implements'), source.optional_text('launch_file'),
-        source.description, nodelet_manager=source.optional_text('nodelet_manager'))
-    _read_dependencies(source, provider)
-    read_remappings(source, provider)
-    return source.finished(provider)
+        reading.name, 1, reading.required_name('implements'), reading.spec.text('launch_file'),
+        reading.description, nodelet_manager=reading.spec.text('nodelet_manager'))
+    _read_dependencies(reading, provider)
+    read_remappings(reading, provider)
+    return reading.finished(provider)
 
 
-def _read_dependencies(source: SpecSource, provider: CapabilityProvider) -> None:
-    """Add what the source says that the provider depends on."""
-    given = source.spec.get('depends_on')
+def _read_dependencies(reading: SpecReading, provider: CapabilityProvider) -> None:
+    """Add what the provider depends on: one name, a list of names, or a mapping to conditions."""
+    given = reading.spec.get('depends_on')
     if isinstance(given, str):
-        _read_dependency(source, provider, value_place(source.spec, 'depends_on'), given)
+        _add_dependency(reading, provider, given, reading.spec.value_place('depends_on'))
     elif isinstance(given, (list, tuple)):
         for index, name in enumerate(given):
-            _read_dependency(source, provider, value_place(given, index), name)
+            _add_dependency(reading, provider, name, value_place(given, index))
     elif isinstance(given, dict):
-        source.check_repeated(given)
-        for name in given:
-            conditions = source.names_in(given, name, 'depends_on %s', name)
+        dependencies = reading.spec.keys_once('depends_on')
+        for name in dependencies:
+            conditions = dependencies.keys_once(name, 'depends_on %s')
             for condition in conditions:
                 if condition != 'provider':
-                    raise source.error(*source.unknown('condition', conditions, condition,
-                                                       ('provider',), 'depends_on'))
+                    raise conditions.unknown_key(condition, ('provider',), 'condition')
             preferred = conditions.get('provider')
-            _read_dependency(source, provider, key_place(given, name), name,
-                             None if preferred is None else source.spec_name_at(
-                                 value_place(conditions, 'provider'), preferred, 'provider'))
+            if preferred is not None:
+                preferred = reading.spec_name(preferred, conditions.value_place('provider'),
+                                              'provider of ' + conditions.title)
+            _add_dependency(reading, provider, name, dependencies.key_place(name), preferred)
     elif given is not None:
-        raise source.error(value_place(source.spec, 'depends_on'), 'depends_on is %s, expected '
-                           'the name of an interface, a list of names or a mapping', given)
+        raise reading.spec.wrong('depends_on',
+                                 'the name of an interface, a list of names or a mapping')
 
 
-def _read_dependency(source: SpecSource, provider: CapabilityProvider, place: Place, given: Any,
-                     preferred_provider: Optional[str] = None) -> None:
-    """Add one capability that the provider depends on."""
-    name = source.spec_name_at(place, given, 'depends_on')
+def _add_dependency(reading: SpecReading, provider: CapabilityProvider, given: object, place: Place,
+                    preferred_provider: Optional[str] = None) -> None:
+    name = reading.spec_name(given, place, 'depends_on')
     if provider.depends_on(name):
-        raise source.error(place, '%s is there twice', name)
+        raise reading.error('duplicate dependency %s' % shown(name), place)
     provider.add_depends_on(name, preferred_provider)

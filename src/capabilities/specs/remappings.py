@@ -10,13 +10,11 @@ Providers and semantic interfaces have them, by kind:
 """
 from __future__ import annotations
 
-from capabilities.specs._reading import SpecSource, key_place
+from typing import Dict, Mapping, Optional
+
+from capabilities.specs._reading import SpecReading
 from capabilities.specs.common import CapabilitySpec
 from rocon_uri.sources.wording import shown
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Dict, Mapping, Optional
 
 __all__ = ['REMAPPING_KINDS', 'RemappingSpec', 'read_remappings']
 
@@ -64,11 +62,10 @@ class RemappingSpec(CapabilitySpec):
         """
         _check_kind(kind)
         if self._remappings.setdefault(name, new_name) != new_name:
-            raise RuntimeError('%s is remapped to %s and to %s' % (
-                shown(name), shown(self._remappings[name]), shown(new_name)))
+            raise RuntimeError(_two_names(name, self._remappings[name], new_name))
         self._remappings_by_type[kind][name] = new_name
 
-    def _remappings_to_dict(self) -> Dict[str, Any]:
+    def _remappings_to_dict(self) -> Dict[str, object]:
         """The remappings as a part of what ``to_dict`` gives; no part if there are none."""
         remappings = {
             kind: {str(name): str(new_name) for name, new_name in new_names.items()}
@@ -83,30 +80,30 @@ def _check_kind(kind: str) -> None:
             shown(kind), ', '.join(REMAPPING_KINDS)))
 
 
-def read_remappings(source: SpecSource, spec: RemappingSpec) -> None:
+def read_remappings(reading: SpecReading, spec: RemappingSpec) -> None:
     """
-    Add the remappings that a source has.
+    Add the remappings of the spec that is read.
 
-    :param source: `capabilities.specs._reading.SpecSource`
+    :param reading: `capabilities.specs._reading.SpecReading`
     :param spec: the spec to add them to
     :raises InvalidSpec: if one cannot be used
     """
-    kinds = source.names_in(source.spec, 'remappings', 'remappings')
+    kinds = reading.spec.keys_once('remappings')
     for kind in kinds:
         if kind not in REMAPPING_KINDS:
-            raise source.error(*source.unknown('kind', kinds, kind, REMAPPING_KINDS,
-                                               'remappings'))
-        new_names = source.mapping_in(kinds, kind, 'remappings of ' + kind)
-        for key, value in new_names.items():
-            name = source.name_in(new_names, key, 'the name of a remapping')
-            new_name = source.text_in(new_names, key, value, 'the new name of %s', name)
+            raise kinds.unknown_key(kind, REMAPPING_KINDS, 'kind')
+        new_names = kinds.mapping(kind, 'remappings of ' + kind)
+        for key in new_names:
+            name = new_names.key_text(key, 'the name of a remapping')
             try:
-                spec.add_remapping(kind, name, new_name)
+                spec.add_remapping(kind, name, new_names.text_at(key, 'the new name of %s'))
             except RuntimeError as error:
-                raise source.invalid(str(error), source.file_name,
-                                     *key_place(new_names, key)) from None
-        for name, lost, place in getattr(new_names, 'repeated', ()):
-            if lost != new_names[name]:
-                raise source.error(place, '%s is remapped to %s and to %s',
-                                   name, lost, new_names[name])
-            source.warn(place, '%s is remapped twice, to the same', name)
+                raise reading.error(str(error), new_names.key_place(key)) from None
+        for name, lost, place in getattr(new_names.data, 'repeated', ()):
+            if lost != new_names.get(name):
+                raise reading.error(_two_names(name, lost, new_names.get(name)), place)
+            reading.warn('duplicate key %s, remapped to the same name' % shown(name), place)
+
+
+def _two_names(name: str, new_name: object, other: object) -> str:
+    return '%s is remapped to %s and to %s' % (shown(name), shown(new_name), shown(other))

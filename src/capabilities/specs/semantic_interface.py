@@ -18,17 +18,16 @@ Semantic capability interfaces: an interface with a meaning of its own, and new 
 """
 from __future__ import annotations
 
+from os import PathLike
+from typing import IO, Dict, Mapping, Optional, Sequence, Set, Tuple, Union
+
 from capabilities.specs._reading import (
-    SpecSource, key_place, load_spec_file, load_spec_file_path, load_spec_string, value_place)
+    SpecReading, load_spec_file, load_spec_file_path, load_spec_string)
 from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import CapabilityInterface, InterfaceElement
 from capabilities.specs.remappings import RemappingSpec, read_remappings
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from os import PathLike
-    from typing import IO, Any, Dict, Mapping, Optional, Sequence, Set, Union
+from rocon_uri.sources.yaml_data import key_place, value_place
 
 __all__ = ['InvalidSemanticInterface', 'SemanticCapabilityInterface',
            'semantic_capability_interface_from_dict', 'semantic_capability_interface_from_file',
@@ -94,14 +93,14 @@ class SemanticCapabilityInterface(RemappingSpec):
         resolved = CapabilityInterface(self.name, self.spec_version, self.description)
         resolved.default_provider = self.default_provider
         self._check_remapped_names(interface)
-        old_names: Dict[Any, str] = {}
+        old_names: Dict[Tuple[str, str], str] = {}
         for section, name, element, grouping in interface.elements():
             new_name = self._remappings_by_type[section].get(name) or self._in_namespace(name)
             old_name = old_names.setdefault((section, new_name), name)
             if old_name != name:
-                msg = '%s and %s of %s both come out as %s' % (
+                problem = '%s and %s of %s both come out as %s' % (
                     quoted(old_name), quoted(name), section, quoted(new_name))
-                raise self._error(section, [name, old_name], msg)
+                raise self._error(section, [name, old_name], problem)
             renamed = InterfaceElement(new_name, element.kind, element.type, element.description)
             try:
                 resolved.add_element(section, new_name, renamed, grouping)
@@ -111,7 +110,7 @@ class SemanticCapabilityInterface(RemappingSpec):
             resolved.add_dynamic_parameter(dynamic_parameter)
         return resolved
 
-    def to_dict(self) -> Dict[str, Any]:
+    def to_dict(self) -> Dict[str, object]:
         """
         The spec as plain data, in the order of the file.
 
@@ -139,19 +138,19 @@ class SemanticCapabilityInterface(RemappingSpec):
         for section, new_names in self._remappings_by_type.items():
             for name in new_names:
                 if name not in names[section]:
-                    msg = '%s has no %s in %s to remap%s' % (
+                    problem = '%s has no %s in %s to remap%s' % (
                         quoted(interface.name), quoted(name), section,
                         did_you_mean(near_misses(name, names[section])))
-                    raise self._error(section, [name], msg)
+                    raise self._error(section, [name], problem)
 
-    def _error(self, section: str, names: Sequence[str], msg: str) -> InvalidSemanticInterface:
+    def _error(self, section: str, names: Sequence[str], problem: str) -> InvalidSemanticInterface:
         """The error of these names; it is where one is remapped, else at the namespace."""
         source = self.source or {}
         new_names = (source.get('remappings') or {}).get(section) or {}
         place = next((key_place(new_names, name) for name in names if name in new_names),
                      value_place(source, 'global_namespace'))
         file_name = '<%s>' % self.name if self.file_name is None else self.file_name
-        return InvalidSemanticInterface(msg, file_name, *place)
+        return InvalidSemanticInterface(problem, file_name, *place)
 
 
 def semantic_capability_interface_from_file_path(file_path: Union[str, PathLike[str]]
@@ -168,7 +167,8 @@ def semantic_capability_interface_from_file_path(file_path: Union[str, PathLike[
         *load_spec_file_path(file_path, InvalidSemanticInterface))
 
 
-def semantic_capability_interface_from_file(file_handle: IO[Any]) -> SemanticCapabilityInterface:
+def semantic_capability_interface_from_file(file_handle: Union[IO[str], IO[bytes]]
+                                            ) -> SemanticCapabilityInterface:
     """
     Read the semantic capability interface in an open file.
 
@@ -196,7 +196,7 @@ def semantic_capability_interface_from_string(string: str, file_name: str = '<st
         *load_spec_string(string, file_name, InvalidSemanticInterface))
 
 
-def semantic_capability_interface_from_dict(spec: Dict[Any, Any], file_name: str = '<dict>'
+def semantic_capability_interface_from_dict(spec: Mapping[str, object], file_name: str = '<dict>'
                                             ) -> SemanticCapabilityInterface:
     """
     Make a semantic capability interface of plain data.
@@ -206,10 +206,11 @@ def semantic_capability_interface_from_dict(spec: Dict[Any, Any], file_name: str
     :returns: `SemanticCapabilityInterface`
     :raises InvalidSemanticInterface: if the spec is not complete or has invalid entries
     """
-    source = SpecSource(spec, file_name, 'semantic_interface',
-                        ('redefines', 'global_namespace', 'remappings'), InvalidSemanticInterface)
+    reading = SpecReading(
+        spec, file_name, 'semantic_interface', ('redefines', 'global_namespace', 'remappings'),
+        InvalidSemanticInterface)
     semantic_interface = SemanticCapabilityInterface(
-        source.name, source.spec_name('redefines'), 1, source.description,
-        source.optional_text('global_namespace'))
-    read_remappings(source, semantic_interface)
-    return source.finished(semantic_interface)
+        reading.name, reading.required_name('redefines'), 1, reading.description,
+        reading.spec.text('global_namespace'))
+    read_remappings(reading, semantic_interface)
+    return reading.finished(semantic_interface)

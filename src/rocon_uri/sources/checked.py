@@ -53,13 +53,14 @@ class Reading:
         """The error to raise for a problem."""
         return self._error(problem, self.file_name, *place)
 
-    def refuse(self, problem: str, place: Place = NOWHERE) -> None:
+    def refuse(self, error: LocatedError) -> None:
         """
-        Deal with a fault.
+        Deal with a fault: raise it.
 
-        :raises LocatedError: of the class that was given
+        :param LocatedError error: one that `error` made
+        :raises LocatedError: always
         """
-        raise self.error(problem, place) from None
+        raise error
 
     def warn(self, problem: str, place: Place = NOWHERE) -> None:
         """Note what is odd and does no harm. Here it is ignored."""
@@ -77,7 +78,8 @@ class Reading:
         try:
             return load(content, self.file_name)
         except YamlError as error:
-            self.refuse(error.problem, error.place)
+            self.refuse(self.error(error.problem, error.place))
+            return None
 
     def load(self, content: Union[str, bytes], what: str) -> CheckedMapping:
         """The mapping that a text holds."""
@@ -94,7 +96,8 @@ class Reading:
         """
         if not isinstance(data, dict):
             known_place = place if place_of(data) == NOWHERE else place_of(data)
-            self.refuse('%s is %s, expected a mapping' % (what, shown(data)), known_place)
+            self.refuse(self.error('%s is %s, expected a mapping' % (what, shown(data)),
+                                   known_place))
             data = {}
         mapping = CheckedMapping(self, data, what)
         mapping.refuse_duplicates()
@@ -134,9 +137,9 @@ class _Checked:
         """The value of a key, or an item, unread."""
         return self.data[key]
 
-    def wrong(self, key: object, expected: str, what: str = '') -> None:
-        """Refuse the value of a key, since something else is expected."""
-        self.reading.refuse('%s is %s, expected %s' % (
+    def wrong(self, key: object, expected: str, what: str = '') -> LocatedError:
+        """The error to raise for the value of a key where something else is expected."""
+        return self.reading.error('%s is %s, expected %s' % (
             self._called(key, what), shown(self.get(key)), expected), self.value_place(key))
 
     def text(self, key: object, what: str = '', may_be_empty: bool = False) -> Optional[str]:
@@ -148,19 +151,29 @@ class _Checked:
         value = self.get(key)
         if value is None or is_text(value) or may_be_empty and value == '':
             return value    # type: ignore[no-any-return]
-        self.wrong(key, 'text', what)
+        self.reading.refuse(self.wrong(key, 'text', what))
         return None
 
-    def mapping(self, key: object, what: str = '', expected: str = 'a mapping') -> CheckedMapping:
+    def text_at(self, key: object, what: str = '') -> str:
+        """The text that must stand at a key that is there; '' if it was refused."""
+        value = self.get(key)
+        if is_text(value):
+            return value    # type: ignore[no-any-return]
+        self.reading.refuse(self.wrong(key, 'text', what))
+        return ''
+
+    def mapping(self, key: object, what: str = '', expected: str = 'a mapping',
+                or_empty_list: bool = True) -> CheckedMapping:
         """
         The mapping that a key has. Its keys may be repeated.
 
-        :returns: `CheckedMapping`; an empty one for what is empty, as ``[]`` too, or was refused
+        :param bool or_empty_list: is ``[]`` read as an empty one, as people write it?
+        :returns: `CheckedMapping`; an empty one if there is nothing, or if it was refused
         """
         value = self.get(key)
         if not isinstance(value, dict):
-            if value is not None and value != []:
-                self.wrong(key, expected, what)
+            if value is not None and not (or_empty_list and value == []):
+                self.reading.refuse(self.wrong(key, expected, what))
             value = {}
         return CheckedMapping(self.reading, value, what or str(key), key)
 
@@ -175,12 +188,12 @@ class _Checked:
         """
         The list that a key has.
 
-        :returns: `CheckedSequence`; an empty one for what is empty, as ``{}`` too, or was refused
+        :returns: `CheckedSequence`; an empty one for nothing or ``{}``, or if it was refused
         """
         value = self.get(key)
         if not isinstance(value, (list, tuple)):
             if value is not None and value != {}:
-                self.wrong(key, expected, what)
+                self.reading.refuse(self.wrong(key, expected, what))
             value = []
         return CheckedSequence(self.reading, value)
 
@@ -207,7 +220,14 @@ class CheckedSequence(_Checked):
             if isinstance(item, dict):
                 yield self.keys_once(index, what)
             else:
-                self.wrong(index, expected, what)
+                self.reading.refuse(self.wrong(index, expected, what))
+
+    def texts(self, what: str) -> Iterator[str]:
+        """The items, each of which must be text."""
+        for index in range(len(self.data)):
+            text = self.text_at(index, what)
+            if text:
+                yield text
 
 
 class CheckedMapping(_Checked):
@@ -252,7 +272,8 @@ class CheckedMapping(_Checked):
         """A key, which must be text; '' if it was refused."""
         if is_text(key):
             return key      # type: ignore[return-value]
-        self.reading.refuse('%s is %s, expected text' % (what, shown(key)), self.key_place(key))
+        self.reading.refuse(self.reading.error(
+            '%s is %s, expected text' % (what, shown(key)), self.key_place(key)))
         return ''
 
     def required(self, key: str, known: Sequence[str] = ()) -> Any:
@@ -267,11 +288,12 @@ class CheckedMapping(_Checked):
         if value is None:
             unknown = [name for name in self.data if isinstance(name, str) and name not in known]
             for near in near_misses(key, unknown[:_MAX_SUSPECTS] if known else ()):
-                self.reading.refuse('unknown key %s, and %s has no %s%s' % (
-                    shown(near), self.title, key, did_you_mean([key])), self.key_place(near))
+                self.reading.refuse(self.reading.error('unknown key %s, and %s has no %s%s' % (
+                    shown(near), self.title, key, did_you_mean([key])), self.key_place(near)))
                 return None
-            self.reading.refuse('%s has no %s' % (self.title, key),
-                                self.key_place(key) if key in self.data else self.place)
+            self.reading.refuse(self.reading.error(
+                '%s has no %s' % (self.title, key),
+                self.key_place(key) if key in self.data else self.place))
         return value
 
     def required_text(self, key: str, known: Sequence[str] = ()) -> str:
@@ -285,22 +307,21 @@ class CheckedMapping(_Checked):
             if key in harmless:
                 self.reading.warn(problem + ', the last one counts', place)
             else:
-                self.reading.refuse(problem, place)
+                self.reading.refuse(self.reading.error(problem, place))
 
     def unknown_key(self, key: object, known: Sequence[str], kind: str = 'key') -> LocatedError:
         """The error to raise for a key that is not known; ``kind`` is what such a key is."""
-        return self.reading.error(self._unknown(key, known, kind), self.key_place(key))
+        meant = self.reading.suggestion(key, known)
+        return self.reading.error('unknown %s %s in %s%s' % (
+            kind, shown(key), self.title, meant or ' (expected %s)' % ', '.join(known)),
+            self.key_place(key))
 
     def warn_of_unknown(self, known: Sequence[str]) -> None:
         """Note the keys that are not known."""
         for key in self.data:
             if key not in known:
-                self.reading.warn(self._unknown(key, known, 'key'), self.key_place(key))
-
-    def _unknown(self, key: object, known: Sequence[str], kind: str) -> str:
-        meant = self.reading.suggestion(key, known)
-        return 'unknown %s %s in %s%s' % (
-            kind, shown(key), self.title, meant or ' (expected %s)' % ', '.join(known))
+                unknown = self.unknown_key(key, known)
+                self.reading.warn(unknown.problem, unknown.place)
 
     def _called(self, key: object, what: str) -> str:
         return super()._called(key, what) + ('' if what else self._within(' of '))
