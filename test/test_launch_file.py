@@ -5,6 +5,8 @@ import os
 import threading
 from pathlib import Path
 from typing import Any, List, Optional, Union
+from xml.dom import minidom
+from xml.parsers.expat import ExpatError
 
 import pytest
 from hypothesis import given
@@ -201,6 +203,30 @@ def test_whatever_is_in_it_there_is_one_answer(content: bytes) -> None:
         line, column = refused.place
         assert refused.kind in (NOT_XML, NO_LAUNCH)
         assert line is not None and line >= 1 and column is not None and column >= 1
+
+
+_PIECES = ['<launch>', '</launch>', '<launch/>', '<group>', '</group>', '<robot/>', 'text', '&amp;',
+           '&', '<!-- -->', '<?xml version="1.0"?>', '<', ' ', '<a b="c"/>', '<![CDATA[<launch>]]>']
+
+
+@given(st.lists(st.sampled_from(_PIECES), max_size=6).map(''.join))
+def test_what_roslaunch_starts_is_no_fault_and_the_other_way_round(content: str) -> None:
+    """It reads with minidom, and wants one launch; we want it at the top."""
+    try:
+        document = minidom.parseString(content.encode())
+    except ExpatError:
+        expected = NOT_XML
+    else:
+        top: Any = document.documentElement
+        one = len(document.getElementsByTagName('launch')) == 1 and top.tagName == 'launch'
+        expected = '' if one else NO_LAUNCH
+    try:
+        launch_file._check_xml(content.encode())
+        found = ''
+    except launch_file._Refused as refused:
+        found = refused.kind
+    # What is wrong in two ways is refused for what comes first.
+    assert found == expected or (found, expected) == (NO_LAUNCH, NOT_XML)
 
 
 @pytest.mark.parametrize('content, names_it', [

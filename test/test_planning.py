@@ -3,9 +3,11 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Set, Tuple
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from made_packages import make_package
 
 from capabilities.planning.faults import Fault, FaultKind
@@ -143,6 +145,34 @@ def test_layers_of_diamonds_are_walked_once() -> None:
              for n in range(300) for side in 'lr']
     plan = plan_start(spec_index(*lines), 'p/L0')
     assert plan.can_start and len(plan.order) == 599
+
+
+@settings(deadline=None)
+@given(st.lists(st.lists(st.integers(1, 6), max_size=3), min_size=8, max_size=8),
+       st.sets(st.integers(0, 7)))
+def test_what_starts_is_what_is_needed_and_does_not_run(
+        offsets: List[List[int]], runs: Set[int]) -> None:
+    """Against a model: capability n depends on some with greater numbers, and some run."""
+    below = [sorted({n + offset for offset in found if n + offset < 8})
+             for n, found in enumerate(offsets)]
+
+    def needed(n: int) -> Set[int]:
+        return {n}.union(*(needed(other) for other in below[n] if n not in runs))
+    index = spec_index(*('x%d X%d %s' % (n, n, ' '.join('X%d' % other for other in found))
+                         for n, found in enumerate(below)))
+    plan = plan_start(index, 'p/X0', running=running(*('X%d y%d' % (n, n) for n in sorted(runs))))
+    assert plan.can_start
+    found = [int(step.capability[-1]) for step in plan.steps]
+    assert len(found) == len(set(found)) and found[-1] == 0 and set(found) == needed(0)
+    for place, step in enumerate(plan.steps):
+        number = found[place]
+        assert step.running == (number in runs)
+        assert step.provider == 'p/%s%d' % ('y' if step.running else 'x', number)
+        depends_on = [int(name[-1]) for name in step.depends_on]
+        assert depends_on == ([] if step.running else below[number])
+        assert set(depends_on) <= set(found[:place])
+        assert (step.required_by is None) == (number == 0)
+        assert step.required_by is None or number in below[int(step.required_by[-1])]
 
 
 # Semantic interfaces
@@ -386,6 +416,13 @@ def test_any_text_may_be_asked_for(text: str) -> None:
     for plan in plan_start(ROBOT, text), plan_start(ROBOT, 'p/Nav', text or 'x'):
         error = error_text(plan)
         assert error.isprintable() and 0 < len(error) < 1000
+
+
+def test_near_misses_are_looked_for_as_long_as_it_does_not_take_long() -> None:
+    many = ['X%d' % n for n in range(1500)]
+    index = spec_index(*many, 'nav Nav Y1 Y2 Y3 Y4 Y5')
+    faults = plan_start(index, 'p/Nav').faults
+    assert [bool(fault.suggestions) for fault in faults] == [True] * 3 + [False] * 2
 
 
 def test_kinds_are_ids_in_kebab_case() -> None:

@@ -11,6 +11,10 @@ from capabilities.spec_index import SpecIndex
 
 __all__ = ['Planner']
 
+#: How many names the near misses of one plan may be looked for among, at up to 60 us each; the
+#: faults that are met after that have none.
+_MAX_COMPARED = 5000
+
 
 class _Instance(NamedTuple):
     """An instance of a capability, that runs or has to be started."""
@@ -61,6 +65,7 @@ class Planner:
         self._first_need: Dict[_Instance, _Need] = {}
         self._preferences: Dict[str, Dict[str, None]] = {}      # of sets that keep their order
         self._faults: List[Fault] = []
+        self._compared = 0
 
     def add(self, asked_for: str, preferred: Optional[str] = None) -> None:
         """Find an instance of a capability, and of all that it depends on."""
@@ -95,12 +100,13 @@ class Planner:
                          semantic_candidates, known=known)
 
         if capability not in self._capabilities:
-            return fault(FaultKind.NO_INTERFACE, known=self._capabilities)
+            return fault(FaultKind.NO_INTERFACE, known=self._alike(self._capabilities))
         candidates = self._candidates_for(capability)
         named = preferred or self._defaults.get(capability)
         if named:
             if named not in self.specs:
-                return fault(FaultKind.UNKNOWN_PROVIDER, named, None, candidates, known=self.specs)
+                return fault(FaultKind.UNKNOWN_PROVIDER, named, None, candidates,
+                             known=self._alike(self.specs))
             implements = self.specs[named].implements
             if capability not in (implements, self._redefined.get(implements)):
                 return fault(FaultKind.WRONG_PROVIDER, named, implements, candidates)
@@ -155,6 +161,11 @@ class Planner:
         if need.preferred:
             self._preferences.setdefault(need.capability, {})[chosen] = None
         return _Instance(implements, chosen, False)
+
+    def _alike(self, names: Collection[str]) -> Collection[str]:
+        """Those among which a near miss is looked for."""
+        self._compared += len(names)
+        return names if self._compared <= _MAX_COMPARED else ()
 
     def _candidates_for(self, capability: str) -> Tuple[str, ...]:
         if capability not in self._candidates:  # once, since many may ask for one that has many
