@@ -3,7 +3,6 @@ How a spec is read: from a text to plain data, and what all three kinds of specs
 """
 from __future__ import annotations
 
-import logging
 from os import PathLike
 from typing import IO, Callable, List, Mapping, Sequence, Tuple, TypeVar, Union
 
@@ -22,8 +21,6 @@ S = TypeVar('S', bound=CapabilitySpec)
 
 _KEYS = ('name', 'spec_version', 'spec_type', 'description')    # of every spec
 _MAX_WARNINGS = 100     # of unknown keys: a text with more is something else
-
-_logger = logging.getLogger('capabilities.specs')
 
 
 class SpecReading(Reading):
@@ -68,8 +65,10 @@ class SpecReading(Reading):
         spec.source = self.spec.data
         spec.file_name = self.file_name
         spec.warnings = tuple(self.warnings)
-        for warning in spec.warnings:
-            _logger.warning('%s', warning)
+        if spec.warnings:
+            import logging      # here, since few specs need it, and it is slow to import
+            for warning in spec.warnings:
+                logging.getLogger('capabilities.specs').warning('%s', warning)
         return spec
 
     def required_text(self, key: str) -> str:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Tuple
 
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 
@@ -26,7 +26,7 @@ class YamlError(LocatedError, ValueError):
     """
 
 
-class YamlMapping(dict):    # type: ignore[type-arg]    # dict[...] is not to be had in Python 3.8
+class YamlMapping(dict):    # type: ignore[type-arg]    # Python 3.8 has no dict[...]
     """
     A mapping read from YAML, in the order of the file: a ``dict`` that knows its positions.
 
@@ -37,23 +37,23 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # dict[...] is not to be
     __slots__ = ('_start', '_positions', 'repeated')
 
     def __init__(self, line: int, column: int,
-                 positions: Optional[Dict[Any, Tuple[int, int, int, int]]] = None) -> None:
+                 positions: Optional[Dict[object, Tuple[int, int, int, int]]] = None) -> None:
         super().__init__()
-        # Counted from 0, as the parser does, since few of them are ever asked for.
+        # Counted from 0, as the parser counts: adding 1 is left to those few that are asked for.
         self._start = line, column
         self._positions = {} if positions is None else positions
-        #: What was lost to a repeated key: a list of (key, its earlier value, position of the
-        #: repetition), empty as a rule.
-        self.repeated: List[Tuple[Any, Any, Position]] = []
+        #: What was lost to duplicate keys: a list of (key, its earlier value, position of the
+        #: duplicate), empty as a rule.
+        self.repeated: List[Tuple[object, object, Position]] = []
 
     @property
     def position(self) -> Position:
         """Where the mapping begins: (line, column)."""
         return self._start[0] + 1, self._start[1] + 1
 
-    def key_position(self, key: Any) -> Position:
+    def key_position(self, key: object) -> Position:
         """
-        Where the key stands. (That of the last one, if it is repeated.)
+        Where the key stands; the last one, if it is repeated.
 
         :param key: a key of the mapping
         :returns: (int, int), line and column
@@ -66,7 +66,7 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # dict[...] is not to be
         line, column, _, _ = self._positions[key]
         return line + 1, column + 1
 
-    def value_position(self, key: Any) -> Position:
+    def value_position(self, key: object) -> Position:
         """
         Where the value of the key begins; where an alias stands, if it is one.
 
@@ -149,7 +149,7 @@ def key_place(mapping: object, key: object) -> Place:
         return NOWHERE
 
 
-def value_place(collection: object, key: Any) -> Place:
+def value_place(collection: object, key: object) -> Place:
     """
     Where a value of a mapping, or an item of a sequence, begins; `NOWHERE` if it was not read.
 
@@ -160,7 +160,7 @@ def value_place(collection: object, key: Any) -> Place:
     try:
         if isinstance(collection, YamlMapping):
             return collection.value_position(key)
-        if isinstance(collection, YamlSequence):
+        if isinstance(collection, YamlSequence) and isinstance(key, int):
             return collection.item_position(key)
     except LookupError:     # put in since
         pass

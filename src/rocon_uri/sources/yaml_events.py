@@ -1,29 +1,29 @@
 """
 The events of PyYAML's parser into the data of `rocon_uri.sources.yaml_source`.
 
-A module of its own since it imports yaml, which is imported only when YAML is read.
+It imports yaml, and is itself imported only when YAML is read.
 """
 from __future__ import annotations
 
 import re
+from typing import Any, Callable, Dict, List, Tuple, Union
 
 import yaml
 from yaml.events import (
     AliasEvent, MappingEndEvent, MappingStartEvent, ScalarEvent, SequenceEndEvent, StreamEndEvent)
 
-from rocon_uri.sources.yaml_scalars import CORE, TAGGED, plain
 from rocon_uri.sources.wording import quoted
 from rocon_uri.sources.yaml_data import (
     MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, end_position)
+from rocon_uri.sources.yaml_scalars import CORE, TAGGED, Scalar, plain
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Callable, Dict, List, Tuple
+__all__ = ['Reader', 'Value']
 
-__all__ = ['Reader']
+Event = Any     # of PyYAML's parser; which attributes it has depends on its class
+Value = Union[Scalar, YamlMapping, YamlSequence]
 
 _MAX_OTHER_KEYS = 100       # keys of a mapping that are not text, merged ones included
-_UNFINISHED = object()      # an anchored collection, while it is being read
+_UNFINISHED = YamlSequence(0, 0, [])    # an anchored collection, while it is being read
 _unreadable = re.compile(
     '[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]').search
 _unreadable_escape = re.compile('[\ud800-\udfff]').search
@@ -36,15 +36,15 @@ class Reader:
     Nested collections are nested calls, so that the state of each is in plain local variables.
     """
 
-    next_event: Callable[[], Any]       # of the parser
+    next_event: Callable[[], Event]     # of the parser
 
     def __init__(self, text: str, file_name: str) -> None:
         self.text = text
         self.file_name = file_name
-        self.anchors: Dict[str, Any] = {}
+        self.anchors: Dict[str, Value] = {}
         self.left_to_add = MAX_SIZE     # what aliases and merges may still add
 
-    def document(self) -> Any:
+    def document(self) -> Value:
         """The data of the only document."""
         try:
             if hasattr(yaml, 'CSafeLoader'):
@@ -68,11 +68,11 @@ class Reader:
             self._check_what_was_read_ahead(error)
             raise self._parser_error(error) from error
 
-    def _mapping(self, start: Any, depth: int) -> YamlMapping:
+    def _mapping(self, start: Event, depth: int) -> YamlMapping:
         """The mapping whose start event this is."""
         next_event, scalar = self.next_event, self._scalar
         mark = start.start_mark
-        positions: Dict[Any, Tuple[int, int, int, int]] = {}
+        positions: Dict[object, Tuple[int, int, int, int]] = {}
         mapping = YamlMapping(mark.line, mark.column, positions)
         merged: List[YamlMapping] = []
         others = 0
@@ -86,7 +86,7 @@ class Reader:
                 key = self._key(event, depth)
             value_event = next_event()
             if value_event.__class__ is ScalarEvent:
-                value = scalar(value_event)
+                value: Value = scalar(value_event)
             else:
                 value = self._node(value_event, depth)
             if key == '<<' and event.__class__ is ScalarEvent and event.implicit[0]:
@@ -106,7 +106,7 @@ class Reader:
             mapping.merge(merged)
         return mapping
 
-    def _sequence(self, start: Any, depth: int) -> YamlSequence:
+    def _sequence(self, start: Event, depth: int) -> YamlSequence:
         """The sequence whose start event this is."""
         mark = start.start_mark
         positions: List[Tuple[int, int]] = []
@@ -119,7 +119,7 @@ class Reader:
             mark = event.start_mark
             positions.append((mark.line, mark.column))
 
-    def _node(self, event: Any, depth: int) -> Any:
+    def _node(self, event: Event, depth: int) -> Value:
         """The data that begins with this event, inside ``depth`` collections."""
         if event.__class__ is ScalarEvent:
             return self._scalar(event)
@@ -137,25 +137,25 @@ class Reader:
         data = self.anchors[event.anchor] = read(event, depth + 1)
         return data
 
-    def _scalar(self, event: Any) -> Any:
+    def _scalar(self, event: Event) -> Scalar:
         """The value of a scalar."""
         is_plain, is_quoted_or_block = event.implicit
-        value = event.value
+        value: Scalar = event.value
         if not is_quoted_or_block:
             if not is_plain and event.tag not in TAGGED:
                 raise self._tag_error(event)
             try:
-                value = plain(value) if is_plain else TAGGED[event.tag](value)
+                value = plain(event.value) if is_plain else TAGGED[event.tag](event.value)
             except (KeyError, ValueError, OverflowError):
                 kind = 'a number' if is_plain else _shown_tag(event.tag)
-                raise self._error('%s cannot be read as %s' % (quoted(value), kind),
+                raise self._error('%s cannot be read as %s' % (quoted(event.value), kind),
                                   event) from None
         if event.anchor is not None:
             self._open_anchor(event)
             self.anchors[event.anchor] = value
         return value
 
-    def _key(self, event: Any, depth: int) -> Any:
+    def _key(self, event: Event, depth: int) -> Scalar:
         """The key that an alias is; a collection is none."""
         if event.__class__ is AliasEvent:
             key = self._alias(event, depth)
@@ -163,14 +163,14 @@ class Reader:
                 return key
         raise self._error('a collection cannot be a key, text is expected', event)
 
-    def _check_other_keys(self, count: int, event: Any) -> None:
+    def _check_other_keys(self, count: int, event: Event) -> None:
         """Refuse more than a few numbers as keys: they can be chosen so that all have one hash."""
         if count > _MAX_OTHER_KEYS:
             raise self._error('more than %d keys that are not text' % _MAX_OTHER_KEYS, event)
 
-    def _merged(self, value: Any, event: Any) -> List[YamlMapping]:
+    def _merged(self, value: Value, event: Event) -> List[YamlMapping]:
         """The mappings that a merge key brings, the ones that win last."""
-        sources = value[::-1] if isinstance(value, YamlSequence) else [value]
+        sources: List[Any] = value[::-1] if isinstance(value, YamlSequence) else [value]
         for source in sources:
             if not isinstance(source, YamlMapping):
                 raise self._error("'<<' merges a mapping or a list of mappings, nothing else",
@@ -178,13 +178,13 @@ class Reader:
             self._add(len(source), event)
         return sources
 
-    def _open_anchor(self, event: Any) -> None:
+    def _open_anchor(self, event: Event) -> None:
         """Note that a node has an anchor, before what it holds is read."""
         if event.anchor in self.anchors:
             raise self._error('anchor %s is defined twice' % quoted('&' + event.anchor), event)
         self.anchors[event.anchor] = _UNFINISHED
 
-    def _alias(self, event: Any, depth: int) -> Any:
+    def _alias(self, event: Event, depth: int) -> Value:
         """The data that an alias stands for, after making sure that it is not too much."""
         name = quoted('*' + event.anchor)
         if event.anchor not in self.anchors:
@@ -195,7 +195,7 @@ class Reader:
         self._measure(data, event, depth)
         return data
 
-    def _measure(self, data: Any, event: Any, depth: int) -> None:
+    def _measure(self, data: Value, event: Event, depth: int) -> None:
         """Count what an alias adds, and see that it is not nested too deep where it stands."""
         if isinstance(data, (YamlMapping, YamlSequence)):
             if depth == MAX_DEPTH:
@@ -207,26 +207,26 @@ class Reader:
                     self._measure(item, event, depth + 1)
         self._add(1 + (len(data) if isinstance(data, str) else 0), event)
 
-    def _add(self, size: int, event: Any) -> None:
+    def _add(self, size: int, event: Event) -> None:
         """Count what an alias or a merge adds."""
         self.left_to_add -= size
         if self.left_to_add < 0:
             raise self._error('aliases add more than 1 MiB', event)
 
-    def _without_surrogates(self, get_event: Callable[[], Any]) -> Callable[[], Any]:
+    def _without_surrogates(self, get_event: Callable[[], Event]) -> Callable[[], Event]:
         r"""The parser in Python lets ``"\ud800"`` through; libyaml does not."""
-        def next_event() -> Any:
+        def next_event() -> Event:
             event = get_event()
             if _unreadable_escape(getattr(event, 'value', '')):
                 raise self._error('found invalid Unicode character escape code', event)
             return event
         return next_event
 
-    def _tag_error(self, event: Any) -> YamlError:
+    def _tag_error(self, event: Event) -> YamlError:
         return self._error('tag %s is not one of the core types, and no other is read'
                            % quoted(_shown_tag(event.tag)), event)
 
-    def _error(self, problem: str, event: Any) -> YamlError:
+    def _error(self, problem: str, event: Event) -> YamlError:
         mark = event.start_mark
         return YamlError(problem, self.file_name, mark.line + 1, mark.column + 1)
 

@@ -2,12 +2,11 @@
 from __future__ import annotations
 
 import re
+from typing import Callable, Dict, Optional, Union
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Callable, Dict, Optional
+__all__ = ['CORE', 'TAGGED', 'Scalar', 'plain']
 
-__all__ = ['CORE', 'TAGGED', 'plain']
+Scalar = Union[str, int, float, bool, None]
 
 CORE = 'tag:yaml.org,2002:'     # what the tags of the core types begin with
 
@@ -26,8 +25,8 @@ _float = re.compile(
 ).fullmatch
 
 
-def plain(value: str) -> Any:
-    """The value of a scalar without quotes and tag; ValueError if it is a number out of reach."""
+def plain(value: str) -> Scalar:
+    """The value of a scalar without quotes and tag; ValueError for a number that is too large."""
     if value in _WORDS:
         return _WORDS[value]
     if value[0] in _START_OF_NUMBER:
@@ -71,6 +70,6 @@ def _to_float(value: str) -> float:
     return -number if value[0] == '-' else number
 
 
-TAGGED: Dict[str, Callable[[str], Any]] = {
+TAGGED: Dict[str, Callable[[str], Scalar]] = {
     CORE + 'str': str, CORE + 'int': _to_int, CORE + 'float': _to_float,
     CORE + 'bool': _BOOLS.__getitem__, CORE + 'null': _NULLS.__getitem__}
