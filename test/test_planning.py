@@ -217,8 +217,8 @@ def test_it_is_never_picked_unnamed_but_mentioned() -> None:
     assert fault.kind is FaultKind.NO_PROVIDER
     assert fault.semantic_candidates == ('p/front', 'p/rear')
     assert str(fault) == (
-        "capability 'p/Camera': no provider implements it (of semantic interfaces that redefine "
-        "it, and to be named: 'p/front', 'p/rear')")
+        "capability 'p/Camera': no provider implements it (those of semantic interfaces that "
+        "redefine it have to be named: 'p/front', 'p/rear')")
 
 
 def test_a_provider_of_the_interface_is_none_of_the_semantic_one() -> None:

@@ -177,7 +177,7 @@ no provider implements it
         """What could be named, where nothing can be picked."""
         if not self.semantic_candidates:
             return ''
-        return ' (of semantic interfaces that redefine it, and to be named: %s)' % ', '.join(
+        return ' (those of semantic interfaces that redefine it have to be named: %s)' % ', '.join(
             map(quoted, self.semantic_candidates))
 
     def _shared(self) -> str:
