@@ -13,12 +13,12 @@ def check_findings(findings, folder):
         assert finding.severity in (ERROR, WARNING)
         for line in (str(finding), finding.as_github()):
             assert line.isprintable()
-        file = Path(os.path.abspath(finding.file))
+        file = Path(os.path.abspath(finding.file_name))
         assert Path(folder) in file.parents
         if finding.line is not None:
             assert 1 <= finding.line <= lines_of(file) + 1 and finding.column >= 1
     assert findings == sorted(findings, key=lambda finding: (
-        finding.file, finding.line or 0, finding.column or 0))
+        finding.file_name, finding.line or 0, finding.column or 0))
 
 
 def lines_of(file):

@@ -83,9 +83,9 @@ def check_workspace(workspace):
         assert all(isinstance(fault, OSError) or str(fault).isprintable() for fault in found)
     findings = check_package_index(index, {}, faults)
     check_findings(findings, workspace)
-    assert not any('a_package' in finding.file for finding in findings)
+    assert not any('a_package' in finding.file_name for finding in findings)
     assert len(faults) == 2 - len(index)
-    wrong = sum(finding.severity == ERROR and finding.file.endswith('package.xml')
+    wrong = sum(finding.severity == ERROR and finding.file_name.endswith('package.xml')
                 for finding in findings)
     for package in index.values():
         folder = os.path.dirname(package.filename)

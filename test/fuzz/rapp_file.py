@@ -77,7 +77,7 @@ def check(texts):
         assert check_package_index(index, OTHERS) == findings
         rapps, errors = rapps_from_package_index(index)
         assert len(rapps) + len(errors) == len(exports)
-        found = {(Path(finding.file).name, finding.line, finding.column)
+        found = {(Path(finding.file_name).name, finding.line, finding.column)
                  for finding in findings if finding.severity == ERROR}
         for error in errors:
             assert str(error).isprintable()
