@@ -7,6 +7,9 @@ True
 """
 from __future__ import annotations
 
+import os
+import sys
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import List
@@ -34,6 +37,13 @@ _NAMES = {
     'uri': ('RoconURI', 'default_uri_string', 'parse'),
     'vocabulary': ('Vocabulary',),
 }
+
+# In a devel space the messages are in another folder than the sources. This does what
+# pkgutil.extend_path does, whose import takes longer than all that is imported here.
+for _entry in sys.path:
+    _folder = os.path.join(_entry, __name__)
+    if _folder not in __path__ and os.path.isfile(os.path.join(_folder, '__init__.py')):
+        __path__.append(_folder)
 
 
 def __getattr__(name: str) -> object:
