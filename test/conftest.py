@@ -1,6 +1,7 @@
 """How the tests run, wherever they run."""
 from __future__ import annotations
 
+import os
 import sys
 import threading
 import traceback
@@ -50,3 +51,41 @@ def pytest_sessionfinish() -> None:
     """Fail the run if there was such a one after the last test."""
     if _unhandled:
         raise RuntimeError('\n'.join(_unhandled))
+
+
+@pytest.fixture(scope='session')
+def _robot(tmp_path_factory):
+    """The robot of all tests of a process, since that can be one node only."""
+    pytest.importorskip('rospy')
+    pytest.importorskip('capabilities.msg', reason='the messages are not built')
+    from robot import Robot
+    with Robot(tmp_path_factory.mktemp('robot')) as robot:
+        yield robot
+
+
+@pytest.fixture(scope='module')
+def robot(_robot):
+    """A master with the packages of the tests of the capability server (`robot.Robot`)."""
+    before = dict(os.environ)
+    os.environ.update(_robot.client_environment)
+    yield _robot
+    os.environ.clear()
+    os.environ.update(before)
+
+
+@pytest.fixture(scope='module')
+def shared_server(robot):
+    """A server for the tests of a module that leave it as it was."""
+    with robot.server({'nodelet_manager': False,
+                       'defaults': {'robot': {'Good': 'robot/good'}}}) as server:
+        yield server
+
+
+@pytest.fixture
+def server(shared_server):
+    """The server of the module; what a test leaves running on it is stopped."""
+    del shared_server.events[:]
+    yield shared_server
+    for status in shared_server.statuses():
+        if status.state != 'failed':
+            shared_server.error('stop_capability', status.capability)

@@ -26,6 +26,7 @@ SLOW_NODE = '''\
 #!%s
 import signal, sys, time
 signal.signal(signal.SIGINT, lambda *ignored: (time.sleep(3), sys.exit()))
+signal.signal(signal.SIGTERM, signal.SIG_IGN)
 time.sleep(10000)
 ''' % sys.executable
 
@@ -281,9 +282,19 @@ class Server:
         """The process id of a node, once it runs."""
         def find():
             return next((pid for pid, command in self.processes().items()
-                         if '__name:=%s ' % name in command and 'test_nodes' in command
-                         and 'runner' not in command), None)
+                         if '__name:=%s ' % name in command), None)
         return eventually(find)
+
+    def stubborn_node_pid(self, name):
+        """The same of a node that ignores SIGTERM, once it does so."""
+        pid = self.node_pid(name)
+
+        def ignores():
+            with open('/proc/%d/status' % pid) as status:
+                mask = next(line.split()[1] for line in status if line.startswith('SigIgn'))
+            return int(mask, 16) & (1 << signal.SIGTERM - 1)
+        eventually(ignores)
+        return pid
 
 
 class Robot:
@@ -300,13 +311,17 @@ class Robot:
             self.master.environment, PYTHONPATH=os.pathsep.join(
                 [str(SOURCE)] + [path for path in sys.path if path]),
             PYTHONDONTWRITEBYTECODE='1')
+        self.client_environment = {name: self.master.environment[name] for name in (
+            'ROS_MASTER_URI', 'ROS_IP', 'ROS_HOME', 'ROS_LOG_DIR')}
 
     def __enter__(self):
         self.master.__enter__()
-        os.environ.update({name: self.master.environment[name] for name in (
-            'ROS_MASTER_URI', 'ROS_IP', 'ROS_HOME', 'ROS_LOG_DIR')})
+        before = dict(os.environ)
+        os.environ.update(self.client_environment)
         import rospy
         rospy.init_node('test_of_the_server', anonymous=True, disable_signals=True)
+        os.environ.clear()
+        os.environ.update(before)
         return self
 
     def __exit__(self, *error):
@@ -317,7 +332,7 @@ class Robot:
                 thread.join(1)
         self.master.__exit__(*error)
 
-    def server(self, parameters=None, arguments=()):
-        """A server of a name that no other has, which is not started yet."""
+    def server(self, parameters=None, arguments=(), name=None):
+        """A server, of a name that no other has unless it is given, which is not started yet."""
         self.numbers += 1
-        return Server(self, 'server_%d' % self.numbers, parameters, arguments)
+        return Server(self, name or 'server_%d' % self.numbers, parameters, arguments)
