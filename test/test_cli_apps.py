@@ -81,9 +81,9 @@ def test_defaults_choose_among_providers(apps, tmp_path):
 
 @pytest.mark.parametrize('content, error', [
     (None, 'No such file or directory'), ('[', 'did not find expected node content'),
-    ('- a', '1:1: expected a mapping from interfaces to providers'),
-    ('a: 7', '1:1: expected an interface and the name of its provider'),
-    ('a: b\na: c', "2:1: 'a' is there twice")])
+    ('- a', '1:1: the file is a list, expected a mapping from interfaces to providers'),
+    ('a: 7', "1:4: the default provider of 'a' is 7, expected text"),
+    ('a: b\na: c', "2:1: duplicate key 'a'")])
 def test_bad_defaults_are_an_error(apps, tmp_path, content, error):
     path = tmp_path / 'defaults.yaml'
     if content is not None:

@@ -105,14 +105,14 @@ def test_a_parent_without_a_package_is_of_the_same_one():
 
 
 @pytest.mark.parametrize('text, error', [
-    ('', '1:1: found empty, expected a rapp, which is a mapping'),
-    ('- display', '1:1: found a list, expected a rapp, which is a mapping'),
+    ('', '1:1: the rapp is empty, expected a mapping'),
+    ('- display', '1:1: the rapp is a list, expected a mapping'),
     ('display: [', '2:1: did not find expected node content while parsing a flow node'),
     ('display: 2048', '1:10: display is 2048, expected text'),
     ('launch: [dance.launch]', '1:9: launch is a list, expected text'),
     ('launch: ""', '1:9: launch is empty, expected text'),
     ('icon: {a: b}', '1:7: icon is a mapping, expected text'),
-    ('display: a\ndisplay: b', "2:1: 'display' is repeated"),
+    ('display: a\ndisplay: b', "2:1: duplicate key 'display'"),
     ('required_capabilities: base', "1:24: required_capabilities is 'base', expected a list"),
     ('required_capabilities:\n- base',
      "2:3: a required capability is 'base', expected a mapping with a name"),
@@ -123,11 +123,11 @@ def test_a_parent_without_a_package_is_of_the_same_one():
     ('required_capabilities: [{name: a/b, interface: {topics: [scan]}}]',
      '1:57: topics is a list, expected a mapping'),
     ('required_capabilities: [{name: a/b, interface: {topics: {requires: {scan: 7}}}}]',
-     "1:75: 'scan' is 7, expected text"),
+     "1:75: the new name of 'scan' is 7, expected text"),
     ('required_capabilities: [{name: a/b, interface: {topics: {requires: {scan: }}}}]',
-     "1:69: 'scan': empty, expected a name and what to call it"),
+     "1:75: the new name of 'scan' is empty, expected text"),
     ('required_capabilities: [{name: a/b, interface: {topics: {requires: {7: scan}}}}]',
-     "1:69: 7: 'scan', expected a name and what to call it"),
+     '1:69: the name of a remapping is 7, expected text'),
 ])
 def test_what_is_no_rapp_is_refused_with_the_place(text, error):
     with pytest.raises(InvalidRapp) as caught:
@@ -200,7 +200,7 @@ def test_a_missing_parent_is_an_error_of_that_rapp_alone():
                            waltz='parent_name: dance')
     assert set(rapps) == {'motion', 'waltz'}
     assert list(map(str, errors)) == [
-        "ours/rapps/dance.rapp:2:14: parent_name 'ours/motoin' is no rapp that can be read "
+        "ours/rapps/dance.rapp:2:14: parent_name 'ours/motoin' does not exist or cannot be read "
         "(did you mean 'ours/motion'?)"]
 
 
@@ -247,7 +247,7 @@ def test_exported_rapps_are_found_and_a_bad_one_hides_no_other(tmp_path):
             for error in errors] == [
         ('ours/rapps/broken.rapp', 'did not find expected node content while parsing a flow node'),
         ('ours/rapps/missing.rapp', 'cannot be read: No such file or directory'),
-        ('ours/more/dance.rapp', "rapp 'ours/dance' is there already")]
+        ('ours/more/dance.rapp', "duplicate rapp 'ours/dance'")]
 
 
 @needs_corpus

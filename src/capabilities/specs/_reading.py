@@ -50,7 +50,7 @@ class SpecReading(Reading):
             raise spec.wrong('spec_version', '1')
         self.name = self.required_text('name')
         if not _is_name(self.name):
-            raise self.error('name %s is not legal, expected a letter, then letters, digits and '
+            raise self.fault('name %s is not legal, expected a letter, then letters, digits and '
                              'underscores' % shown(self.name), spec.value_place('name'))
         self.description = spec.text('description', may_be_empty=True)
         spec.warn_of_unknown(self.keys)
@@ -84,7 +84,7 @@ class SpecReading(Reading):
         try:
             return SpecName(value)      # type: ignore[arg-type]
         except ValueError:
-            raise self.error('%s is %s, expected package/name' % (what, shown(value)),
+            raise self.fault('%s is %s, expected package/name' % (what, shown(value)),
                              place) from None
 
 

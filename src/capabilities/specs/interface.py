@@ -181,7 +181,7 @@ def _read_element(interface: Interface, section: str, elements: CheckedMapping, 
     element_type = element.text('type')
     if element_type is None:
         near = near_misses(name, GROUPINGS) if grouping is None else []
-        raise elements.reading.error('%s has no type%s' % (element.title, did_you_mean(near)),
+        raise elements.reading.fault('%s has no type%s' % (element.title, did_you_mean(near)),
                                      elements.key_place(name))
     element.warn_of_unknown(_ELEMENT_KEYS)
     description = element.text('description', may_be_empty=True)
@@ -189,7 +189,7 @@ def _read_element(interface: Interface, section: str, elements: CheckedMapping, 
         interface.add_element(
             section, name, InterfaceElement(name, kind, element_type, description), grouping)
     except RuntimeError:
-        raise elements.reading.error('duplicate ' + element.title,
+        raise elements.reading.fault('duplicate ' + element.title,
                                      elements.key_place(name)) from None
 
 
@@ -200,5 +200,5 @@ def _read_dynamic_parameters(interface: Interface, sections: CheckedMapping) -> 
         try:
             interface.add_dynamic_parameter(name)
         except RuntimeError:
-            raise names.reading.error('duplicate dynamic_parameter ' + shown(name),
+            raise names.reading.fault('duplicate dynamic_parameter ' + shown(name),
                                       names.value_place(index)) from None

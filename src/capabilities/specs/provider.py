@@ -247,5 +247,5 @@ def _add_dependency(reading: SpecReading, provider: CapabilityProvider, given: o
                     preferred_provider: Optional[str] = None) -> None:
     name = reading.spec_name(given, place, 'depends_on')
     if provider.depends_on(name):
-        raise reading.error('duplicate dependency %s' % shown(name), place)
+        raise reading.fault('duplicate dependency %s' % shown(name), place)
     provider.add_depends_on(name, preferred_provider)

@@ -13,34 +13,32 @@ A rapp (robot app) as a ``.rapp`` file describes it: `Rapp`, and how one is read
           topics:
             requires: {/cmd_vel: walker/commands/velocity}
 
-What a rapp says beyond what is known here is kept, not judged. `rocon_uri.rapps` finds rapps, and
-has them inherit from their parents.
+Other keys are kept as they are. `rocon_uri.rapps` finds rapps, and lets them inherit from their
+parents.
 """
 from __future__ import annotations
 
 import os
-from collections import namedtuple
+from os import PathLike
+from typing import Dict, Iterator, NamedTuple, Optional, Tuple, Union
 
 from capabilities.specs.common import InvalidSpec
-from rocon_uri.sources.wording import shown
-from rocon_uri.sources.yaml_data import YamlError, YamlMapping, YamlSequence
-from rocon_uri.sources.yaml_source import load, read_file
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Dict, Iterator, Optional, Tuple, Union
+from rocon_uri.sources.checked import CheckedMapping, Reading
+from rocon_uri.sources.located import Place
+from rocon_uri.sources.yaml_data import YamlMapping, value_place
+from rocon_uri.sources.yaml_source import read_file
 
 __all__ = ['GROUPS_OF_REMAPPINGS', 'INHERITED_KEYS', 'InvalidRapp', 'KEYS', 'Rapp',
            'RequiredCapability', 'TYPES_OF_REMAPPINGS', 'rapp_from_file_path', 'rapp_from_string']
 
-#: The keys whose values are the names of files, relative to the folder of the one that says it.
+#: The keys whose values name files, relative to the folder of the rapp.
 _FILE_KEYS = ('icon', 'launch', 'public_interface', 'public_parameters')
 _TEXT_KEYS = ('display', 'description', 'compatibility', 'parent_name') + _FILE_KEYS
 
-#: What a ``.rapp`` file may say and is understood.
+#: The keys of a ``.rapp`` file that are understood.
 KEYS = _TEXT_KEYS + ('required_capabilities',)
 
-#: What a rapp has from its parent where it says nothing itself.
+#: What a rapp inherits from its parent where it says nothing itself.
 INHERITED_KEYS = ('display', 'description', 'icon', 'public_interface', 'public_parameters')
 
 #: What a required capability may rename.
@@ -61,37 +59,63 @@ class InvalidRapp(InvalidSpec):
     """
 
 
-#: A capability interface that a rapp needs: its name (str, ``package/name``), and a dict of what
-#: the rapp calls the names of that interface by each of `TYPES_OF_REMAPPINGS`.
-RequiredCapability = namedtuple('RequiredCapability', 'name remappings')
-
-
-class Rapp(namedtuple('Rapp', 'name path display description icon compatibility launch parent_name '
-                              'public_interface public_parameters required_capabilities others '
-                              'files source')):
+class RequiredCapability(NamedTuple):
     """
-    A robot app; a tuple that does not change.
+    A capability that a rapp needs.
 
-    - ``name``: str, ``package/name``; ``path``: str, its file
-    - ``display``, ``description``, ``icon``, ``compatibility``, ``launch``, ``parent_name``,
-      ``public_interface``, ``public_parameters``: str, ``None`` where it has none;
-      ``parent_name`` always has its package
-    - ``required_capabilities``: tuple of `RequiredCapability`
-    - ``others``: dict of what else the file says
-    - ``files``: dict of the paths that icon, launch, public_interface and public_parameters come to
-    - ``source``: `rocon_uri.yaml_source.YamlMapping`, what the file itself says, with positions
+    >>> RequiredCapability(name='std_capabilities/Sound', remappings={}).name
+    'std_capabilities/Sound'
+    """
+
+    #: ``package/name``
+    name: str
+    #: what the rapp calls the names of the interface, by each of `TYPES_OF_REMAPPINGS` that it
+    #: remaps
+    remappings: Dict[str, Dict[str, str]]
+
+
+class Rapp(NamedTuple):
+    """
+    A robot app; a tuple that does not change. What a rapp does not say is None.
 
     >>> rapp = rapp_from_string('{compatibility: "rocon:/pr2", launch: dance.launch}', 'ours/dance')
     >>> rapp.launch, rapp.is_implementation, rapp.is_ancestor
     ('dance.launch', True, True)
     """
 
-    __slots__ = ()
+    #: ``package/name``
+    name: str
+    #: its file
+    path: str
+    #: what people call it
+    display: Optional[str]
+    #: free text
+    description: Optional[str]
+    #: the file of its icon, as the rapp names it
+    icon: Optional[str]
+    #: the rocon URI of the robots that it runs on
+    compatibility: Optional[str]
+    #: its launch file, as the rapp names it
+    launch: Optional[str]
+    #: the rapp that it inherits from, always with its package
+    parent_name: Optional[str]
+    #: the file of its topics, services and actions, as the rapp names it
+    public_interface: Optional[str]
+    #: the file of its parameters, as the rapp names it
+    public_parameters: Optional[str]
+    #: what the robot has to provide
+    required_capabilities: Tuple[RequiredCapability, ...]
+    #: what else its file says
+    others: Dict[str, object]
+    #: the paths of icon, launch, public_interface and public_parameters by key, joined to `path`
+    files: Dict[str, str]
+    #: what its file says, with positions
+    source: YamlMapping
 
     @property
     def package(self) -> str:
         """The name of the package that exports it."""
-        return str(self.name.partition('/')[0])
+        return self.name.partition('/')[0]
 
     @property
     def is_implementation(self) -> bool:
@@ -105,7 +129,7 @@ class Rapp(namedtuple('Rapp', 'name path display description icon compatibility 
 
     def inheriting(self, parent: Rapp) -> Rapp:
         """
-        This rapp with what its parent has and it has not.
+        This rapp, with what its parent has where it has nothing itself.
 
         :param Rapp parent: the rapp that parent_name names
         :returns: Rapp
@@ -117,9 +141,10 @@ class Rapp(namedtuple('Rapp', 'name path display description icon compatibility 
         missing = [key for key in INHERITED_KEYS if getattr(self, key) is None]
         files = dict(self.files)
         files.update((key, parent.files[key]) for key in missing if key in parent.files)
-        return self._replace(files=files, **{key: getattr(parent, key) for key in missing})
+        inherited = {key: getattr(parent, key) for key in missing}
+        return self._replace(files=files, **inherited)
 
-    def position(self, key: str) -> Tuple[Optional[int], Optional[int]]:
+    def position(self, key: str) -> Place:
         """
         Where in its file the value of a key begins.
 
@@ -129,20 +154,20 @@ class Rapp(namedtuple('Rapp', 'name path display description icon compatibility 
         >>> rapp_from_string('launch: dance.launch', 'ours/dance').position('launch')
         (1, 9)
         """
-        return self.source.value_position(key) if key in self.source else (None, None)
+        return value_place(self.source, key)
 
 
-def rapp_from_file_path(path: str, name: str) -> Rapp:
+def rapp_from_file_path(path: Union[str, PathLike[str]], name: str) -> Rapp:
     """
     Read one ``.rapp`` file.
 
     :param str path: the file
     :param str name: what the rapp is called, ``package/name``
-    :returns: Rapp, which has nothing yet of its parent
+    :returns: Rapp, which has not inherited anything yet
     :raises InvalidRapp: if its content is not that of a rapp
     :raises OSError: if it cannot be read
     """
-    return rapp_from_string(read_file(path), name, path)
+    return rapp_from_string(read_file(path), name, str(path))
 
 
 def rapp_from_string(content: Union[str, bytes], name: str, path: str = '<string>') -> Rapp:
@@ -152,7 +177,7 @@ def rapp_from_string(content: Union[str, bytes], name: str, path: str = '<string
     :param content: what its file holds, str or bytes
     :param str name: what the rapp is called, ``package/name``
     :param str path: its file, which errors name and other files are relative to
-    :returns: Rapp, which has nothing yet of its parent
+    :returns: Rapp, which has not inherited anything yet
     :raises InvalidRapp: if the content is not that of a rapp
 
     >>> rapp_from_string('display: [Dance]', 'ours/dance', 'dance.rapp')
@@ -160,90 +185,37 @@ def rapp_from_string(content: Union[str, bytes], name: str, path: str = '<string
         ...
     rocon_uri.apps.rapp.InvalidRapp: dance.rapp:1:10: display is a list, expected text
     """
-    try:
-        source = load(content, path)
-        if not isinstance(source, YamlMapping):
-            raise YamlError('found %s, expected a rapp, which is a mapping' % shown(source), path,
-                            *getattr(source, 'position', (1, 1)))
-        return _rapp(source, name, path)
-    except YamlError as error:
-        raise InvalidRapp(error.problem, path, error.line, error.column) from None
-
-
-def _rapp(source: YamlMapping, name: str, path: str) -> Rapp:
-    _refuse_repeated_keys(source, path)
-    texts = {key: _text(source, key, path) for key in _TEXT_KEYS}
+    source = Reading(path, InvalidRapp).load(content, 'the rapp')
+    texts = {key: source.text(key, may_be_empty=key == 'description') for key in _TEXT_KEYS}
     parent_name = texts['parent_name']
     if parent_name is not None and '/' not in parent_name:
         texts['parent_name'] = '%s/%s' % (name.partition('/')[0], parent_name)
     folder = os.path.dirname(path)
     return Rapp(
-        name=name, path=path, required_capabilities=tuple(_required_capabilities(source, path)),
-        others={key: value for key, value in source.items() if key not in KEYS},
+        name=name, path=path,
+        required_capabilities=tuple(_required_capabilities(source)),
+        others={key: source.get(key) for key in source if key not in KEYS},
         files={key: os.path.normpath(os.path.join(folder, texts[key] or ''))
                for key in _FILE_KEYS if texts[key] is not None},
-        source=source, **texts)
+        source=source.data, **texts)
 
 
-def _text(mapping: YamlMapping, key: Any, path: str, what: str = '') -> Optional[str]:
-    """The text that a key has, None if it has none."""
-    value = mapping.get(key)
-    if value is None:
-        return None
-    if not isinstance(value, str) or not value and key != 'description':
-        raise YamlError('%s is %s, expected text' % (what or key, shown(value)), path,
-                        *mapping.value_position(key))
-    return value
+def _required_capabilities(source: CheckedMapping) -> Iterator[RequiredCapability]:
+    for capability in source.sequence('required_capabilities').mappings(
+            'a required capability', 'a mapping with a name'):
+        yield RequiredCapability(name=capability.required_text('name'),
+                                 remappings=_remappings(capability))
 
 
-def _required_capabilities(source: YamlMapping, path: str) -> Iterator[RequiredCapability]:
-    items = source.get('required_capabilities')
-    if items is None:
-        return
-    if not isinstance(items, YamlSequence):
-        raise YamlError('required_capabilities is %s, expected a list' % shown(items), path,
-                        *source.value_position('required_capabilities'))
-    for index, item in enumerate(items):
-        if not isinstance(item, YamlMapping):
-            raise YamlError('a required capability is %s, expected a mapping with a name'
-                            % shown(item), path, *items.item_position(index))
-        _refuse_repeated_keys(item, path)
-        name = _text(item, 'name', path)
-        if name is None:
-            raise YamlError('a required capability has no name', path, *item.position)
-        yield RequiredCapability(name, _remappings(item, path))
-
-
-def _remappings(capability: YamlMapping, path: str) -> Dict[str, Dict[str, str]]:
+def _remappings(capability: CheckedMapping) -> Dict[str, Dict[str, str]]:
     """What the rapp calls the names of a capability interface, of each type that it remaps."""
-    interface = _mapping(capability, 'interface', path)
+    interface = capability.keys_once('interface')
     found: Dict[str, Dict[str, str]] = {}
     for kind in TYPES_OF_REMAPPINGS:
-        grouped = _mapping(interface, kind, path)
+        groups = interface.keys_once(kind)
         for group in GROUPS_OF_REMAPPINGS:
-            names = _mapping(grouped, group, path)
-            for name in names:
-                new_name = _text(names, name, path, shown(name))
-                if not isinstance(name, str) or new_name is None:
-                    raise YamlError('%s: %s, expected a name and what to call it' % (
-                        shown(name), shown(new_name)), path, *names.key_position(name))
-                found.setdefault(kind, {})[name] = new_name
+            names = groups.keys_once(group)
+            for key in names:
+                name = names.key_text(key, 'the name of a remapping')
+                found.setdefault(kind, {})[name] = names.text_at(key, 'the new name of %s')
     return found
-
-
-def _mapping(mapping: Any, key: str, path: str) -> Any:
-    """The mapping that a key has, an empty one if there is nothing: also ``[]``, as people do."""
-    value = mapping.get(key)
-    if value is None or value == []:
-        return {}
-    if not isinstance(value, YamlMapping):
-        raise YamlError('%s is %s, expected a mapping' % (key, shown(value)), path,
-                        *mapping.value_position(key))
-    _refuse_repeated_keys(value, path)
-    return value
-
-
-def _refuse_repeated_keys(mapping: YamlMapping, path: str) -> None:
-    """One of the two would be lost."""
-    for key, _, (line, column) in mapping.repeated:
-        raise YamlError('%s is repeated' % shown(key), path, line, column)

@@ -1,5 +1,5 @@
 """
-Rapps (robot apps): those that packages export, and what they have from their parents.
+Rapps (robot apps): those that packages export, and what they inherit from their parents.
 
 A package exports a rapp with the path of its file, relative to the package::
 
@@ -16,15 +16,15 @@ Its name is that of the package and of the file, ``our_rapps/dance``.
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
-from rocon_uri.apps.rapp import InvalidRapp, Rapp, RequiredCapability, rapp_from_file_path
-from rocon_uri.apps.rapp import rapp_from_string
+from rocon_uri.apps.rapp import (
+    InvalidRapp, Rapp, RequiredCapability, rapp_from_file_path, rapp_from_string)
 from rocon_uri.apps.runnable import Reason, ReasonKind, Verdict, runnable
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted, quoted_path
 
-TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+    from catkin_pkg.package import Package
 
 __all__ = ['InvalidRapp', 'Rapp', 'Reason', 'ReasonKind', 'RequiredCapability', 'Verdict',
            'rapp_file_index_from_package_index', 'rapp_from_file_path', 'rapp_from_string',
@@ -46,7 +46,8 @@ def rapp_name(package: str, path: str) -> str:
     return '%s/%s' % (package, os.path.splitext(os.path.basename(path))[0])
 
 
-def rapp_file_index_from_package_index(package_index: Mapping[str, Any]) -> Dict[str, List[str]]:
+def rapp_file_index_from_package_index(package_index: Mapping[str, Package]
+                                       ) -> Dict[str, List[str]]:
     """
     The files that packages export as rapps, whether they exist or not.
 
@@ -66,13 +67,13 @@ def rapp_file_index_from_package_index(package_index: Mapping[str, Any]) -> Dict
 
 
 def rapps_from_package_index(
-        package_index: Mapping[str, Any]) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
+        package_index: Mapping[str, Package]) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
     """
-    The rapps that packages export, with what they have from their parents.
+    The rapps that packages export, with what they inherit from their parents.
 
     :param package_index: as `rapp_file_index_from_package_index` takes it
-    :returns: (dict of `Rapp` by name, list of `InvalidRapp`); what is wrong with one rapp costs
-        that one only
+    :returns: (dict of `Rapp` by name, list of `InvalidRapp`); a fault of one rapp costs only that
+        one
     """
     rapps, errors = rapps_from_rapp_file_index(rapp_file_index_from_package_index(package_index))
     related, more_errors = with_inheritance(rapps.values())
@@ -96,7 +97,7 @@ def rapps_from_rapp_file_index(
             try:
                 rapp = _rapp_of_package(package, path)
                 if rapp.name in rapps:
-                    raise InvalidRapp('rapp %s is there already, in %s' % (
+                    raise InvalidRapp('duplicate rapp %s, the first is in %s' % (
                         quoted(rapp.name), quoted_path(rapps[rapp.name].path)), path)
                 rapps[rapp.name] = rapp
             except InvalidRapp as error:
@@ -113,10 +114,10 @@ def _rapp_of_package(package: str, path: str) -> Rapp:
 
 def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
     """
-    Rapps with what they have from their parents, through all generations.
+    Rapps with what they inherit from their parents, through all generations.
 
-    A parent that is not among them is an error of the rapp that names it, a cycle one of the rapps
-    on it; whoever descends from those inherits what can be had.
+    A parent that is not among them is an error of the rapp that names it, and a cycle is one of
+    each rapp on it. Rapps that descend from those inherit what there is.
 
     :param rapps: iterable of Rapp
     :returns: (dict of `Rapp` by name, list of `InvalidRapp`)
@@ -130,14 +131,14 @@ def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[Inval
         while ancestor is not None and not (
                 ancestor.name in related or ancestor.name in line):
             line[ancestor.name] = ancestor
-            ancestor = by_name.get(ancestor.parent_name)
+            ancestor = by_name.get(ancestor.parent_name or '')
         if ancestor is not None and ancestor.name in line:
             cycle = list(line)[list(line).index(ancestor.name):]
             for index, member in enumerate(cycle):
                 errors[member] = _cycle_error(by_name[member], cycle, index)
                 related[member] = by_name[member]
         for name, descendant in reversed(list(line.items())):
-            parent = related.get(descendant.parent_name)
+            parent = related.get(descendant.parent_name or '')
             if parent is None and not descendant.is_ancestor:
                 errors.setdefault(name, _missing_parent_error(descendant, by_name))
             if name not in related:
@@ -147,12 +148,13 @@ def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[Inval
 
 
 def _missing_parent_error(rapp: Rapp, by_name: Mapping[str, Rapp]) -> InvalidRapp:
-    package, _, own_name = rapp.parent_name.partition('/')
-    near = near_misses(rapp.parent_name, [     # of all names, there may be too many
+    parent_name = rapp.parent_name or ''
+    package, _, own_name = parent_name.partition('/')
+    near = near_misses(parent_name, [     # of all names, there may be too many
         name for name in by_name
         if name.startswith(package + '/') or name.endswith('/' + own_name)])
-    return InvalidRapp('parent_name %s is no rapp that can be read%s' % (
-        quoted(rapp.parent_name), did_you_mean(near)),
+    return InvalidRapp('parent_name %s does not exist or cannot be read%s' % (
+        quoted(parent_name), did_you_mean(near)),
         rapp.path, *rapp.position('parent_name'))
 
 

@@ -118,21 +118,15 @@ def _read_defaults(path: Optional[str], report: PackageReport) -> Optional[Dict[
     """The default providers by interface; None if the file is bad, which is reported."""
     if path is None:
         return {}
-    from rocon_uri.sources.yaml_data import YamlError, YamlMapping     # loads YAML
-    from rocon_uri.sources.yaml_source import load_file     # loads YAML
+    from rocon_uri.sources.checked import Reading   # these load YAML
+    from rocon_uri.sources.yaml_source import YamlError, read_file
     try:
-        source = load_file(path)
-        if isinstance(source, YamlMapping) and isinstance(source.get('defaults'), YamlMapping):
-            source = source['defaults']
-        if not isinstance(source, YamlMapping):
-            raise YamlError('expected a mapping from interfaces to providers', path, 1, 1)
-        for key, _, place in source.repeated:
-            raise YamlError('%s is there twice' % quoted(str(key)), path, *place)
-        for interface, provider in source.items():
-            if not isinstance(interface, str) or not isinstance(provider, str):
-                raise YamlError('expected an interface and the name of its provider', path,
-                                *source.key_position(interface))
-        return dict(source)
+        defaults = Reading(path, YamlError).load(
+            read_file(path), 'the file', 'a mapping from interfaces to providers')
+        if isinstance(defaults.get('defaults'), dict):
+            defaults = defaults.keys_once('defaults')
+        return {defaults.key_text(key, 'the name of an interface'):
+                defaults.text_at(key, 'the default provider of %s') for key in defaults}
     except (OSError, YamlError) as error:
         report.bad_file(error)
         return None

@@ -3,38 +3,33 @@ from __future__ import annotations
 
 import os
 import re
+from typing import Any, Iterable, List, Mapping, Optional, Sequence
 
+from capabilities.specs.interface import CapabilityInterface
 from rocon_uri.exceptions import RoconURIValueError
-from rocon_uri.sources.wording import near_misses, quoted
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
+from rocon_uri.sources.checked import CheckedMapping, Reading
+from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.sources.yaml_source import read_file
 from rocon_uri.uri import parse
-from rocon_uri.sources.wording import did_you_mean
-from rocon_uri.sources.yaml_data import YamlError
-from rocon_uri.sources.yaml_source import load_file, read_file
+from rocon_uri.vocabulary import Vocabulary
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Iterable, List, Mapping, Optional, Tuple
-    from capabilities.specs.interface import CapabilityInterface
-    from rocon_uri.vocabulary import Vocabulary
+__all__ = ['CheckedFile', 'is_inside']
 
-    Place = Tuple[Optional[int], Optional[int]]
-
-__all__ = ['CheckedFile', 'NOWHERE', 'is_inside']
-
-NOWHERE: Place = (None, None)
+_SUGGESTING = 20    # findings: with more, no near misses are looked for, which takes long
 
 _split_lines = re.compile('\r\n|[\r\n\x85\u2028\u2029]').split      # as YAML counts them
 
 
 def is_inside(path: str, folder: str) -> bool:
     """
-    Is a path one of a folder or of something in it, by its letter?
+    Does a path, as it is written, lead to a folder or to something in it?
 
     Symbolic links are not followed: the devel space of a package may consist of them.
 
-    :param str path: absolute, or relative to where the folder is relative to
+    :param str path: absolute or relative, like that of the folder
     :param str folder: the folder
     :returns: bool
 
@@ -45,46 +40,55 @@ def is_inside(path: str, folder: str) -> bool:
         os.path.join(os.path.normpath(folder), ''))
 
 
-class CheckedFile:
+class CheckedFile(Reading):
     """
-    A file of a package, and what is found in it.
+    A file of a package, and what is found in it: it is read to the end, whatever is wrong.
 
     :param str path: the file
     :param str package_folder: where the package is that it belongs to
 
-    ``findings`` is a list of `Finding`. A place is (line, column), each from 1 or None.
+    ``findings`` is a list of `Finding`.
     """
 
     def __init__(self, path: str, package_folder: str) -> None:
+        super().__init__(path, LocatedError)
         self.path = path
         self.package_folder = package_folder
         self.findings: List[Finding] = []
         self._lines: Optional[List[str]] = None
 
-    def add(self, severity: str, text: str, place: Place = NOWHERE) -> None:
+    def add(self, severity: str, problem: str, place: Place = NOWHERE) -> None:
         """Note something, `ERROR` or `WARNING`."""
-        self.findings.append(Finding(self.path, place[0], place[1], severity, text))
+        self.findings.append(Finding(file_name=self.path, line=place[0], column=place[1],
+                                     severity=severity, problem=problem))
 
-    def error(self, text: str, place: Place = NOWHERE) -> None:
+    def error(self, problem: str, place: Place = NOWHERE) -> None:
         """Note something that will not work, or not as it says."""
-        self.add(ERROR, text, place)
+        self.add(ERROR, problem, place)
 
-    def warn(self, text: str, place: Place = NOWHERE) -> None:
+    def warn(self, problem: str, place: Place = NOWHERE) -> None:
         """Note something that works, and is probably not what was meant."""
-        self.add(WARNING, text, place)
+        self.add(WARNING, problem, place)
 
-    def load(self) -> Any:
+    def refuse(self, fault: LocatedError) -> None:
+        """Note a fault as an error."""
+        self.error(fault.problem, fault.place)
+
+    def expectation(self, found: object, known: Sequence[str]) -> str:
+        """The end of an error: what was expected; empty if there are many findings already."""
+        return super().expectation(found, known) if self._has_few_findings() else ''
+
+    def read(self) -> Any:
         """What the file holds, read as YAML; None if it cannot be read, which is noted."""
         try:
-            return load_file(self.path)
-        except YamlError as error:
-            self.error(error.problem, error.place)
+            content = read_file(self.path)
         except OSError as error:
             self.error('cannot be read: %s' % (error.strerror or error))
-        return None
+            return None
+        return self.data(content)
 
     def check_ros_name(self, name: str, what: str, place: Place) -> None:
-        """A topic, a service and the like must have a name that the ROS graph allows."""
+        """The name of a topic, a service and the like must be one that the ROS graph allows."""
         if not name or not is_legal_name(name):
             self.error('%s %s is not a legal ROS name' % (what, quoted(name)), place)
 
@@ -92,19 +96,11 @@ class CheckedFile:
         """The type of a topic, a service or an action is written package/Type."""
         parts = type_name.split('/')
         if len(parts) != 2 or not all(map(is_legal_base_name, parts)):
-            # as ROS 2 writes it
+            # the form of ROS 2
             meant = ('%s/%s' % (parts[0], parts[2]) if len(parts) == 3
                      and parts[1] in ('msg', 'srv', 'action') else None)
             self.error('type %s of %s is not of the form package/Type%s' % (
                 quoted(type_name), what, did_you_mean([meant] if meant else [])), place)
-
-    def check_keys(self, mapping: Any, known: Iterable[str], what: str) -> None:
-        """What has no meaning in a mapping that was read from the file is probably misspelt."""
-        for key in mapping:
-            if key not in known:
-                self.warn('unknown key %s in %s%s' % (
-                    quoted(str(key)), what, self._suggestion(str(key), known)),
-                    mapping.key_position(key))
 
     def check_file(self, name: str, what: str, place: Place, *folders: str,
                    if_missing: str = ERROR) -> Optional[str]:
@@ -126,9 +122,9 @@ class CheckedFile:
             self.error('%s %s is outside the package' % (what, quoted(name)), place)
         return None
 
-    def check_exists(self, name: str, what: str, known: Mapping[str, Any], place: Place) -> bool:
+    def check_exists(self, name: str, what: str, known: Mapping[str, object], place: Place) -> bool:
         """
-        What this file names, ``package/name``, has to be known.
+        What this file names, ``package/name``, has to exist.
 
         :returns: bool
         """
@@ -141,28 +137,27 @@ class CheckedFile:
             what, quoted(name), self._suggestion(name, alike)), place)
         return False
 
-    def check_remapped_names(self, kind: str, new_names: Any, interface: CapabilityInterface,
-                             ) -> None:
+    def check_remapped_names(self, kind: str, new_names: CheckedMapping,
+                             interface: CapabilityInterface) -> None:
         """
-        Only names that the interface has can be called something else, and by a legal name.
+        Only a name that the interface has can be remapped, and only to a legal one.
 
         :param str kind: ``'topics'``, ``'services'``, ``'actions'`` or ``'parameters'``
-        :param new_names: mapping of names to new ones, as it was read from the file
-        :param interface: what the names are of
+        :param new_names: the new names by name
+        :param interface: the one that has the names
         """
         names = getattr(interface, kind)
-        for name, new_name in new_names.items():
-            place = new_names.key_position(name)
+        for name in new_names:
             if name not in names:
                 # Transports publish below a topic: image, image/compressed.
                 is_below = name.rpartition('/')[0] in names
                 self.add(WARNING if is_below else ERROR, '%s has no %s in %s to remap%s' % (
                     quoted(interface.name), quoted(name), kind,
-                    self._suggestion(name, names)), place)
-            self.check_ros_name(new_name, 'new name', new_names.value_position(name))
+                    self._suggestion(name, names)), new_names.key_place(name))
+            self.check_ros_name(new_names.get(name), 'new name', new_names.value_place(name))
 
     def check_compatibility(self, text: str, vocabulary: Vocabulary, place: Place) -> None:
-        """A compatibility string has to be a rocon URI, and should be read as it was meant."""
+        """A compatibility string has to be a rocon URI, and should not be read in another way."""
         try:
             uri = parse(text, vocabulary)
         except RoconURIValueError as error:
@@ -180,11 +175,10 @@ class CheckedFile:
         return did_you_mean(near_misses(text, candidates)) if self._has_few_findings() else ''
 
     def _has_few_findings(self) -> bool:
-        """Are there no more than a person reads? Near misses take long to find."""
-        return len(self.findings) < 20
+        return len(self.findings) < _SUGGESTING
 
     def _place_in_text(self, text: str, index: int, place: Place) -> Place:
-        """Where a character of a text stands that begins here, behind a quotation mark or not."""
+        """Where a character of a text is; the text begins at the place, maybe after a quote."""
         line, column = place
         if line is None or column is None:
             return place

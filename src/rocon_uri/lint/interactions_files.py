@@ -1,24 +1,21 @@
 """
 What can be wrong in an ``.interactions`` file: what people can do with a robot, from which screens.
 
-No export names these files, and several forms of them are about: a list of interactions; a mapping
-that has such lists as ``interactions`` and ``pairings``; a list of groups that hold them likewise,
-or by other keys.
+No export names these files, and they have several forms: a list of interactions; a mapping with
+such lists as ``interactions`` and ``pairings``; a list of groups, each with such lists by these or
+by other keys.
 """
 from __future__ import annotations
 
 import os
+from typing import Iterator, List, Tuple
 
-from rocon_uri.sources.wording import near_misses, quoted
 from rocon_uri.lint.checked_file import CheckedFile
-from rocon_uri.sources.wording import did_you_mean
-from rocon_uri.sources.yaml_data import YamlMapping, YamlSequence
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Iterator, List, Tuple
-    from rocon_uri.lint.finding import Finding
-    from rocon_uri.lint.surroundings import Surroundings
+from rocon_uri.lint.finding import Finding
+from rocon_uri.lint.surroundings import Surroundings
+from rocon_uri.sources.checked import CheckedMapping, CheckedSequence
+from rocon_uri.sources.located import Place
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 __all__ = ['check_interactions_file', 'interactions_files']
 
@@ -37,7 +34,7 @@ _REQUIRED_KEYS = {'interaction': ('name', 'compatibility'), 'pairing': ('name', 
 
 def interactions_files(package_folder: str) -> Iterator[str]:
     """
-    The ``.interactions`` files of a package, but for those in a package within it.
+    The ``.interactions`` files of a package, without those of a package within it.
 
     :param str package_folder: where the package is
     :returns: iterator of str, their paths, in the order of their names
@@ -57,13 +54,13 @@ def check_interactions_file(path: str, package_folder: str,
     """
     Check one file.
 
-    :param str path: which
-    :param str package_folder: where the package is that it is in
+    :param str path: the file
+    :param str package_folder: where its package is
     :param Surroundings surroundings: what it may refer to
     :returns: list of `Finding`
     """
     file = CheckedFile(path, package_folder)
-    data = file.load()
+    data = file.read()
     if data is not None:
         _check_data(data, file, surroundings)
     elif not file.findings:
@@ -71,67 +68,66 @@ def check_interactions_file(path: str, package_folder: str,
     return file.findings
 
 
-def _check_data(data: Any, file: CheckedFile, surroundings: Surroundings) -> None:
+def _check_data(data: object, file: CheckedFile, surroundings: Surroundings) -> None:
     seen = set()
     for kind, entry in _entries(data, 'interaction', file):
         _check_entry(kind, entry, file, surroundings)
         identity = kind, tuple(repr(entry.get(key)) for key in (
             'name', 'group', 'role', 'namespace', 'compatibility'))
         if identity in seen:
-            file.error('%s %s is there twice' % (kind, quoted(str(entry.get('name')))),
-                       entry.position)
+            file.error('duplicate %s %s' % (kind, quoted(str(entry.get('name')))), entry.place)
         seen.add(identity)
     if not seen and not file.findings:
         file.error('expected a list of interactions, or a mapping that has one', (1, 1))
 
 
-def _entries(data: Any, kind: str, file: CheckedFile) -> Iterator[Tuple[str, YamlMapping]]:
+def _entries(data: object, kind: str, file: CheckedFile) -> Iterator[Tuple[str, CheckedMapping]]:
     """The interactions and pairings in a list or a group, each with its kind."""
-    if isinstance(data, YamlSequence):
-        for index, item in enumerate(data):
-            if not isinstance(item, YamlMapping):
-                file.error('%s is no mapping' % _ENTRIES[kind], data.item_position(index))
-            elif _is_group(item):
-                yield from _entries(item, kind, file)
+    if isinstance(data, list):
+        for item in CheckedSequence(file, data).mappings(_ENTRIES[kind]):
+            if _is_group(item):
+                yield from _entries(item.data, kind, file)
             else:
                 yield kind, item
-    elif isinstance(data, YamlMapping):
-        for key, below in data.items():
-            if isinstance(below, YamlSequence):
-                near = [] if key in _LISTS else near_misses(str(key), _LISTS)
+    elif isinstance(data, dict):
+        group = CheckedMapping(file, data, 'a group')
+        for key in group:
+            below = group.get(key)
+            if isinstance(below, list):
+                near = [] if key in _LISTS else near_misses(str(key), list(_LISTS))
                 if near:
-                    file.warn('unknown key %s%s' % (quoted(key), did_you_mean(near)),
-                              data.key_position(key))
+                    file.warn('unknown key %s%s' % (quoted(str(key)), did_you_mean(near)),
+                              group.key_place(key))
                 yield from _entries(below, _LISTS.get(key, kind), file)
-            elif key in _LISTS and below is not None:
-                file.error('%s is no list' % key, data.value_position(key))
+            elif key in _LISTS:
+                group.sequence(key)     # which it is not
 
 
-def _is_group(item: YamlMapping) -> bool:
+def _is_group(item: CheckedMapping) -> bool:
     """Does it hold interactions, and is none itself?"""
     return any(key in item for key in _LISTS) or (
         not any(key in item for keys in _REQUIRED_KEYS.values() for key in keys)
-        and any(isinstance(below, YamlSequence) for below in item.values()))
+        and any(isinstance(below, list) for below in item.data.values()))
 
 
-def _check_entry(kind: str, entry: YamlMapping, file: CheckedFile,
+def _check_entry(kind: str, entry: CheckedMapping, file: CheckedFile,
                  surroundings: Surroundings) -> None:
-    file.check_keys(entry, _KEYS[kind], _ENTRIES[kind])
-    for key, _, place in entry.repeated:
-        file.error('%s is there twice' % quoted(str(key)), place)
+    entry.warn_of_unknown(_KEYS[kind])
     for key in _REQUIRED_KEYS[kind]:
-        if entry.get(key) is None:
-            file.error('%s has no %s' % (_ENTRIES[kind], key), entry.position)
+        entry.required(key)
     for key in ('name', 'compatibility', 'namespace', 'rapp'):
-        value = entry.get(key)
-        if value is not None and not isinstance(value, str):
-            file.error('%s is no text' % key, entry.value_position(key))
-        elif value is not None:
-            _check_text(key, value, entry.value_position(key), file, surroundings)
-    _check_remappings(entry, file)
+        value = entry.text(key)
+        if value is not None:
+            _check_text(key, value, entry.value_place(key), file, surroundings)
+    for remapping in entry.sequence('remappings').mappings('a remapping'):
+        remapping.warn_of_unknown(('remap_from', 'remap_to'))
+        for key in ('remap_from', 'remap_to'):
+            name = remapping.required_text(key)
+            if name:
+                file.check_ros_name(name, key, remapping.value_place(key))
 
 
-def _check_text(key: str, value: str, place: Any, file: CheckedFile,
+def _check_text(key: str, value: str, place: Place, file: CheckedFile,
                 surroundings: Surroundings) -> None:
     if key == 'compatibility':
         file.check_compatibility(value, surroundings.vocabulary, place)
@@ -139,22 +135,3 @@ def _check_text(key: str, value: str, place: Any, file: CheckedFile,
         file.check_ros_name(value, 'namespace', place)
     elif key == 'rapp':
         file.check_exists(value, 'rapp', surroundings.rapps, place)
-
-
-def _check_remappings(entry: YamlMapping, file: CheckedFile) -> None:
-    remappings = entry.get('remappings')
-    if not isinstance(remappings, YamlSequence):
-        if remappings is not None:
-            file.error('remappings is no list', entry.value_position('remappings'))
-        return
-    for index, remapping in enumerate(remappings):
-        if not isinstance(remapping, YamlMapping):
-            file.error('a remapping is no mapping', remappings.item_position(index))
-            continue
-        file.check_keys(remapping, ('remap_from', 'remap_to'), 'a remapping')
-        for key in ('remap_from', 'remap_to'):
-            if isinstance(remapping.get(key), str):
-                file.check_ros_name(remapping[key], key, remapping.value_position(key))
-            else:
-                file.error('a remapping has no %s, or one that is no text' % key,
-                           remapping.position)

@@ -2,21 +2,16 @@
 from __future__ import annotations
 
 import os
+from typing import List
 
-from rocon_uri.sources.wording import quoted
+from rocon_uri.apps.rapp import GROUPS_OF_REMAPPINGS, KEYS, TYPES_OF_REMAPPINGS, Rapp
 from rocon_uri.grammar import is_rocon_app
 from rocon_uri.lint.checked_file import CheckedFile
-from rocon_uri.lint.finding import ERROR, WARNING
+from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.lint.launch_files import check_launch_file
-from rocon_uri.apps.rapp import GROUPS_OF_REMAPPINGS, KEYS, TYPES_OF_REMAPPINGS
-from rocon_uri.sources.yaml_data import YamlMapping, YamlSequence
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, List
-    from rocon_uri.lint.finding import Finding
-    from rocon_uri.lint.surroundings import Surroundings
-    from rocon_uri.apps.rapp import Rapp
+from rocon_uri.lint.surroundings import Surroundings
+from rocon_uri.sources.checked import CheckedMapping
+from rocon_uri.sources.wording import quoted
 
 __all__ = ['check_rapp']
 
@@ -37,7 +32,8 @@ def check_rapp(rapp: Rapp, package_folder: str, surroundings: Surroundings) -> L
     if not is_rocon_app(rapp.name):
         file.warn('no rocon URI can name rapp %s: package and file need ROS base names (a letter, '
                   'then letters, digits and _)' % quoted(rapp.name))
-    file.check_keys(rapp.source, KEYS, 'a rapp')
+    source = file.mapping(rapp.source, 'the rapp')
+    source.warn_of_unknown(KEYS)
     if rapp.compatibility is not None:
         file.check_compatibility(rapp.compatibility, surroundings.vocabulary,
                                  rapp.position('compatibility'))
@@ -52,7 +48,7 @@ def check_rapp(rapp: Rapp, package_folder: str, surroundings: Surroundings) -> L
             ('icon', 'icon', WARNING),
             ('public_interface', 'public_interface', ERROR),
             ('public_parameters', 'public_parameters', ERROR)):
-        name = rapp.source.get(key)
+        name = source.text(key)
         if name is not None:
             path = file.check_file(name, what, rapp.position(key), folder, if_missing=if_missing)
             if path is not None and key.startswith('public_'):
@@ -60,55 +56,49 @@ def check_rapp(rapp: Rapp, package_folder: str, surroundings: Surroundings) -> L
     if rapp.launch is not None:
         findings += check_launch_file(rapp.launch, rapp.position('launch'), file,
                                       surroundings.launch_files)
-    for item in rapp.source.get('required_capabilities') or ():
+    for item in source.sequence('required_capabilities').mappings('a required capability'):
         _check_required_capability(item, file, surroundings)
     return findings + file.findings
 
 
-def _check_required_capability(item: Any, file: CheckedFile, surroundings: Surroundings) -> None:
-    file.check_keys(item, ('name', 'interface'), 'a required capability')
-    name = item['name']
-    file.check_exists(name, 'capability', surroundings.capabilities, item.value_position('name'))
+def _check_required_capability(capability: CheckedMapping, file: CheckedFile,
+                               surroundings: Surroundings) -> None:
+    capability.warn_of_unknown(('name', 'interface'))
+    name = capability.required_text('name')
+    file.check_exists(name, 'capability', surroundings.capabilities,
+                      capability.value_place('name'))
     interface = surroundings.interface(name)
-    kinds = item.get('interface') or {}
-    file.check_keys(kinds, TYPES_OF_REMAPPINGS, 'interface')
+    kinds = capability.mapping('interface')
+    kinds.warn_of_unknown(TYPES_OF_REMAPPINGS)
     for kind in TYPES_OF_REMAPPINGS:
-        groups = kinds.get(kind) or {}
-        file.check_keys(groups, GROUPS_OF_REMAPPINGS, kind)
+        groups = kinds.mapping(kind)
+        groups.warn_of_unknown(GROUPS_OF_REMAPPINGS)
         for group in GROUPS_OF_REMAPPINGS:
-            if interface is not None and groups.get(group):
-                file.check_remapped_names(kind, groups[group], interface)
+            if interface is not None:
+                file.check_remapped_names(kind, groups.mapping(group), interface)
 
 
 def _check_public_file(key: str, path: str, package_folder: str) -> List[Finding]:
     """What is wrong with the public interface or the public parameters of a rapp."""
     file = CheckedFile(path, package_folder)
-    data = file.load()
-    if isinstance(data, YamlMapping):
+    data = file.read()
+    if data is not None:
+        public = file.mapping(data, key, (1, 1))
         if key == 'public_interface':
-            file.check_keys(data, _PUBLIC_INTERFACE_KEYS, key)
+            public.warn_of_unknown(_PUBLIC_INTERFACE_KEYS)
             for kind in _PUBLIC_INTERFACE_KEYS:
-                _check_connections(kind, data, file)
-    elif data is not None:
-        file.error('%s is no mapping' % key, getattr(data, 'position', (1, 1)))
+                _check_connections(kind, public, file)
     return file.findings
 
 
-def _check_connections(kind: str, data: Any, file: CheckedFile) -> None:
+def _check_connections(kind: str, public: CheckedMapping, file: CheckedFile) -> None:
     """Check the publishers, the services and so on, each a mapping with a name and a type."""
-    connections = data.get(kind)
-    if not connections:
-        return
-    if not isinstance(connections, YamlSequence):
-        file.error('%s is no list' % kind, data.value_position(kind))
-        return
-    for index, connection in enumerate(connections):
-        if (not isinstance(connection, YamlMapping)
-                or not all(isinstance(connection.get(key), str) for key in ('name', 'type'))):
-            file.error('%s has something else than mappings with a name and a type' % kind,
-                       connections.item_position(index))
-            continue
-        file.check_keys(connection, ('name', 'type'), kind)
-        file.check_ros_name(connection['name'], 'name', connection.value_position('name'))
-        file.check_type(connection['type'], quoted(connection['name']),
-                        connection.value_position('type'))
+    for connection in public.sequence(kind).mappings(
+            'an item of ' + kind, 'a mapping with a name and a type'):
+        connection.warn_of_unknown(('name', 'type'))
+        name = connection.required_text('name')
+        type_name = connection.required_text('type')
+        if name:
+            file.check_ros_name(name, 'name', connection.value_place('name'))
+        if type_name:
+            file.check_type(type_name, quoted(name), connection.value_place('type'))

@@ -6,13 +6,13 @@ first one. The collections in the file are asked for what should be in them:
 
 >>> from rocon_uri.sources.yaml_data import YamlError
 >>> reading = Reading('dance.rapp', YamlError)
->>> rapp = reading.load('{launch: [dance.launch], iocn: dance.png}', 'a rapp')
+>>> rapp = reading.load('{launch: [dance.launch], iocn: dance.png}', 'the rapp')
 >>> rapp.text('launch')
 Traceback (most recent call last):
     ...
 rocon_uri.sources.yaml_data.YamlError: dance.rapp:1:10: launch is a list, expected text
 >>> print(rapp.unknown_key('iocn', ['launch', 'icon']).sentence)
-unknown key 'iocn' in a rapp (did you mean 'icon'?)
+unknown key 'iocn' in the rapp (did you mean 'icon'?)
 
 A subclass of `Reading` that collects faults overrides `Reading.refuse`. What it has refused is read
 as if nothing were there.
@@ -22,7 +22,7 @@ as if nothing were there.
 from __future__ import annotations
 
 import re
-from typing import Any, Callable, Dict, Iterable, Iterator, Optional, Sequence, Union
+from typing import Any, Callable, Dict, Iterator, Optional, Sequence, Union
 
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.wording import did_you_mean, near_misses, shown
@@ -49,25 +49,26 @@ class Reading:
         self.file_name = file_name
         self._error = error
 
-    def error(self, problem: str, place: Place = NOWHERE) -> LocatedError:
-        """The error to raise for a problem."""
+    def fault(self, problem: str, place: Place = NOWHERE) -> LocatedError:
+        """The error to raise for what is wrong."""
         return self._error(problem, self.file_name, *place)
 
-    def refuse(self, error: LocatedError) -> None:
+    def refuse(self, fault: LocatedError) -> None:
         """
         Deal with a fault: raise it.
 
-        :param LocatedError error: one that `error` made
+        :param LocatedError fault: one that `fault` made
         :raises LocatedError: always
         """
-        raise error
+        raise fault
 
     def warn(self, problem: str, place: Place = NOWHERE) -> None:
         """Note what is odd and does no harm. Here it is ignored."""
 
-    def suggestion(self, text: object, candidates: Iterable[str]) -> str:
-        """The end of an error that knows what was probably meant; empty if nobody can tell."""
-        return did_you_mean(near_misses(text, candidates)) if isinstance(text, str) else ''
+    def expectation(self, found: object, known: Sequence[str]) -> str:
+        """The end of an error: what was probably meant, or else all that could have been."""
+        meant = did_you_mean(near_misses(found, known)) if isinstance(found, str) else ''
+        return meant or ' (expected %s)' % ', '.join(known)
 
     def data(self, content: Union[str, bytes]) -> Any:
         """
@@ -78,25 +79,28 @@ class Reading:
         try:
             return load(content, self.file_name)
         except YamlError as error:
-            self.refuse(self.error(error.problem, error.place))
+            self.refuse(self.fault(error.problem, error.place))
             return None
 
-    def load(self, content: Union[str, bytes], what: str) -> CheckedMapping:
-        """The mapping that a text holds."""
-        return self.mapping(self.data(content), what, (1, 1))
+    def load(self, content: Union[str, bytes], what: str, expected: str = 'a mapping'
+             ) -> CheckedMapping:
+        """The mapping that a text holds. Parameters as in `mapping`."""
+        return self.mapping(self.data(content), what, (1, 1), expected)
 
-    def mapping(self, data: object, what: str, place: Place = NOWHERE) -> CheckedMapping:
+    def mapping(self, data: object, what: str, place: Place = NOWHERE,
+                expected: str = 'a mapping') -> CheckedMapping:
         """
         Data as a mapping, in which no key may be repeated.
 
         :param data: plain data
         :param str what: what errors call it
         :param place: where errors say that it is, if it does not know that itself
-        :returns: `CheckedMapping`
+        :param str expected: what errors say that they expected
+        :returns: `CheckedMapping`, an empty one if it was refused
         """
         if not isinstance(data, dict):
             known_place = place if place_of(data) == NOWHERE else place_of(data)
-            self.refuse(self.error('%s is %s, expected a mapping' % (what, shown(data)),
+            self.refuse(self.fault('%s is %s, expected %s' % (what, shown(data), expected),
                                    known_place))
             data = {}
         mapping = CheckedMapping(self, data, what)
@@ -139,7 +143,7 @@ class _Checked:
 
     def wrong(self, key: object, expected: str, what: str = '') -> LocatedError:
         """The error to raise for the value of a key where something else is expected."""
-        return self.reading.error('%s is %s, expected %s' % (
+        return self.reading.fault('%s is %s, expected %s' % (
             self._called(key, what), shown(self.get(key)), expected), self.value_place(key))
 
     def text(self, key: object, what: str = '', may_be_empty: bool = False) -> Optional[str]:
@@ -272,7 +276,7 @@ class CheckedMapping(_Checked):
         """A key, which must be text; '' if it was refused."""
         if is_text(key):
             return key      # type: ignore[return-value]
-        self.reading.refuse(self.reading.error(
+        self.reading.refuse(self.reading.fault(
             '%s is %s, expected text' % (what, shown(key)), self.key_place(key)))
         return ''
 
@@ -288,10 +292,10 @@ class CheckedMapping(_Checked):
         if value is None:
             unknown = [name for name in self.data if isinstance(name, str) and name not in known]
             for near in near_misses(key, unknown[:_MAX_SUSPECTS] if known else ()):
-                self.reading.refuse(self.reading.error('unknown key %s, and %s has no %s%s' % (
+                self.reading.refuse(self.reading.fault('unknown key %s, and %s has no %s%s' % (
                     shown(near), self.title, key, did_you_mean([key])), self.key_place(near)))
                 return None
-            self.reading.refuse(self.reading.error(
+            self.reading.refuse(self.reading.fault(
                 '%s has no %s' % (self.title, key),
                 self.key_place(key) if key in self.data else self.place))
         return value
@@ -307,13 +311,12 @@ class CheckedMapping(_Checked):
             if key in harmless:
                 self.reading.warn(problem + ', the last one counts', place)
             else:
-                self.reading.refuse(self.reading.error(problem, place))
+                self.reading.refuse(self.reading.fault(problem, place))
 
     def unknown_key(self, key: object, known: Sequence[str], kind: str = 'key') -> LocatedError:
         """The error to raise for a key that is not known; ``kind`` is what such a key is."""
-        meant = self.reading.suggestion(key, known)
-        return self.reading.error('unknown %s %s in %s%s' % (
-            kind, shown(key), self.title, meant or ' (expected %s)' % ', '.join(known)),
+        return self.reading.fault('unknown %s %s in %s%s' % (
+            kind, shown(key), self.title, self.reading.expectation(key, known)),
             self.key_place(key))
 
     def warn_of_unknown(self, known: Sequence[str]) -> None:
