@@ -36,6 +36,7 @@ from capabilities.specs.interface_sections import (
     GROUPINGS, SECTIONS, Interface, InterfaceElement)
 from rocon_uri.sources.checked import CheckedMapping
 from rocon_uri.sources.wording import did_you_mean, near_misses, shown
+from rocon_uri.sources.yaml_data import value_place
 
 __all__ = ['CapabilityInterface', 'Interface', 'InterfaceElement', 'InvalidInterface',
            'capability_interface_from_dict', 'capability_interface_from_file',
@@ -148,7 +149,7 @@ def capability_interface_from_dict(spec: Mapping[str, object], file_name: str = 
     """
     reading = SpecReading(spec, file_name, 'interface', ('interface',), InvalidInterface)
     interface = CapabilityInterface(reading.name, 1, reading.description)
-    sections = reading.spec.keys_once('interface')
+    sections = reading.spec.mapping('interface')
     for section in sections:
         if section in SECTIONS:
             _read_section(interface, sections, section)
@@ -161,10 +162,10 @@ def capability_interface_from_dict(spec: Mapping[str, object], file_name: str = 
 
 def _read_section(interface: Interface, sections: CheckedMapping, section: str) -> None:
     """Add the elements of one section, grouped or not."""
-    elements = sections.keys_once(section)
+    elements = sections.mapping(section)
     for name in elements:
         if name in GROUPINGS:
-            group = elements.keys_once(name, '%s of %s' % (name, section))
+            group = elements.mapping(name, '%s of %s' % (name, section))
             for grouped_name in group:
                 _read_element(interface, section, group, grouped_name, name)
         else:
@@ -176,7 +177,9 @@ def _read_element(interface: Interface, section: str, elements: CheckedMapping, 
     """Add one element."""
     kind = SECTIONS[section]
     name = elements.key_text(key, 'the name of a ' + kind)
-    element = elements.mapping(name, kind + ' %s', 'a mapping with a type', or_empty_list=False)
+    if elements.get(name) == []:
+        raise elements.wrong(name, 'a mapping with a type', kind + ' %s')
+    element = elements.mapping(name, kind + ' %s', 'a mapping with a type', is_checked=False)
     element.refuse_duplicates(harmless=('description',))
     element_type = element.text('type')
     if element_type is None:
@@ -195,10 +198,12 @@ def _read_element(interface: Interface, section: str, elements: CheckedMapping, 
 
 def _read_dynamic_parameters(interface: Interface, sections: CheckedMapping) -> None:
     """Add the names in the list of dynamic parameters."""
-    names = sections.sequence('dynamic_parameters', expected='a list of names')
-    for index, name in enumerate(names.texts('the name of a dynamic_parameter')):
+    names = sections.sequence('dynamic_parameters', 'a list of names')
+    for index, name in enumerate(names):
+        place = value_place(names, index)
+        sections.reading.text(name, 'the name of a dynamic_parameter', place)
         try:
             interface.add_dynamic_parameter(name)
         except RuntimeError:
-            raise names.reading.fault('duplicate dynamic_parameter ' + shown(name),
-                                      names.value_place(index)) from None
+            raise sections.reading.fault('duplicate dynamic_parameter ' + shown(name),
+                                         place) from None

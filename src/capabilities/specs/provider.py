@@ -227,9 +227,9 @@ def _read_dependencies(reading: SpecReading, provider: CapabilityProvider) -> No
         for index, name in enumerate(given):
             _add_dependency(reading, provider, name, value_place(given, index))
     elif isinstance(given, dict):
-        dependencies = reading.spec.keys_once('depends_on')
+        dependencies = reading.spec.mapping('depends_on')
         for name in dependencies:
-            conditions = dependencies.keys_once(name, 'depends_on %s')
+            conditions = dependencies.mapping(name, 'depends_on %s')
             for condition in conditions:
                 if condition != 'provider':
                     raise conditions.unknown_key(condition, ('provider',), 'condition')

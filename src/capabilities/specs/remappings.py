@@ -88,11 +88,11 @@ def read_remappings(reading: SpecReading, spec: RemappingSpec) -> None:
     :param spec: the spec to add them to
     :raises InvalidSpec: if one cannot be used
     """
-    kinds = reading.spec.keys_once('remappings')
+    kinds = reading.spec.mapping('remappings')
     for kind in kinds:
         if kind not in REMAPPING_KINDS:
             raise kinds.unknown_key(kind, REMAPPING_KINDS, 'kind')
-        new_names = kinds.mapping(kind, 'remappings of ' + kind)
+        new_names = kinds.mapping(kind, 'remappings of ' + kind, is_checked=False)
         for key in new_names:
             name = new_names.key_text(key, 'the name of a remapping')
             try:

@@ -201,20 +201,21 @@ def rapp_from_string(content: Union[str, bytes], name: str, path: str = '<string
 
 
 def _required_capabilities(source: CheckedMapping) -> Iterator[RequiredCapability]:
-    for capability in source.sequence('required_capabilities').mappings(
-            'a required capability', 'a mapping with a name'):
+    for capability in source.reading.mappings(
+            source.sequence('required_capabilities'), 'a required capability',
+            'a mapping with a name'):
         yield RequiredCapability(name=capability.required_text('name'),
                                  remappings=_remappings(capability))
 
 
 def _remappings(capability: CheckedMapping) -> Dict[str, Dict[str, str]]:
     """What the rapp calls the names of a capability interface, of each type that it remaps."""
-    interface = capability.keys_once('interface')
+    interface = capability.mapping('interface')
     found: Dict[str, Dict[str, str]] = {}
     for kind in TYPES_OF_REMAPPINGS:
-        groups = interface.keys_once(kind)
+        groups = interface.mapping(kind)
         for group in GROUPS_OF_REMAPPINGS:
-            names = groups.keys_once(group)
+            names = groups.mapping(group)
             for key in names:
                 name = names.key_text(key, 'the name of a remapping')
                 found.setdefault(kind, {})[name] = names.text_at(key, 'the new name of %s')

@@ -124,7 +124,7 @@ def _read_defaults(path: Optional[str], report: PackageReport) -> Optional[Dict[
         defaults = Reading(path, YamlError).load(
             read_file(path), 'the file', 'a mapping from interfaces to providers')
         if isinstance(defaults.get('defaults'), dict):
-            defaults = defaults.keys_once('defaults')
+            defaults = defaults.mapping('defaults')
         return {defaults.key_text(key, 'the name of an interface'):
                 defaults.text_at(key, 'the default provider of %s') for key in defaults}
     except (OSError, YamlError) as error:

@@ -8,12 +8,12 @@ by other keys.
 from __future__ import annotations
 
 import os
-from typing import Iterator, List, Tuple
+from typing import Dict, Iterator, List, Tuple
 
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import Finding
 from rocon_uri.lint.surroundings import Surroundings
-from rocon_uri.sources.checked import CheckedMapping, CheckedSequence
+from rocon_uri.sources.checked import CheckedMapping
 from rocon_uri.sources.located import Place
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
@@ -84,8 +84,8 @@ def _check_data(data: object, file: CheckedFile, surroundings: Surroundings) -> 
 def _entries(data: object, kind: str, file: CheckedFile) -> Iterator[Tuple[str, CheckedMapping]]:
     """The interactions and pairings in a list or a group, each with its kind."""
     if isinstance(data, list):
-        for item in CheckedSequence(file, data).mappings(_ENTRIES[kind]):
-            if _is_group(item):
+        for item in file.mappings(data, _ENTRIES[kind]):
+            if _is_group(item.data):
                 yield from _entries(item.data, kind, file)
             else:
                 yield kind, item
@@ -103,11 +103,11 @@ def _entries(data: object, kind: str, file: CheckedFile) -> Iterator[Tuple[str, 
                 group.sequence(key)     # which it is not
 
 
-def _is_group(item: CheckedMapping) -> bool:
+def _is_group(item: Dict[str, object]) -> bool:
     """Does it hold interactions, and is none itself?"""
     return any(key in item for key in _LISTS) or (
         not any(key in item for keys in _REQUIRED_KEYS.values() for key in keys)
-        and any(isinstance(below, list) for below in item.data.values()))
+        and any(isinstance(below, list) for below in item.values()))
 
 
 def _check_entry(kind: str, entry: CheckedMapping, file: CheckedFile,
@@ -119,7 +119,7 @@ def _check_entry(kind: str, entry: CheckedMapping, file: CheckedFile,
         value = entry.text(key)
         if value is not None:
             _check_text(key, value, entry.value_place(key), file, surroundings)
-    for remapping in entry.sequence('remappings').mappings('a remapping'):
+    for remapping in file.mappings(entry.sequence('remappings'), 'a remapping'):
         remapping.warn_of_unknown(('remap_from', 'remap_to'))
         for key in ('remap_from', 'remap_to'):
             name = remapping.required_text(key)

@@ -56,7 +56,7 @@ def check_rapp(rapp: Rapp, package_folder: str, surroundings: Surroundings) -> L
     if rapp.launch is not None:
         findings += check_launch_file(rapp.launch, rapp.position('launch'), file,
                                       surroundings.launch_files)
-    for item in source.sequence('required_capabilities').mappings('a required capability'):
+    for item in file.mappings(source.sequence('required_capabilities'), 'a required capability'):
         _check_required_capability(item, file, surroundings)
     return findings + file.findings
 
@@ -83,7 +83,7 @@ def _check_public_file(key: str, path: str, package_folder: str) -> List[Finding
     file = CheckedFile(path, package_folder)
     data = file.read()
     if data is not None:
-        public = file.mapping(data, key, (1, 1))
+        public = file.mapping(data, key, place=(1, 1))
         if key == 'public_interface':
             public.warn_of_unknown(_PUBLIC_INTERFACE_KEYS)
             for kind in _PUBLIC_INTERFACE_KEYS:
@@ -93,8 +93,8 @@ def _check_public_file(key: str, path: str, package_folder: str) -> List[Finding
 
 def _check_connections(kind: str, public: CheckedMapping, file: CheckedFile) -> None:
     """Check the publishers, the services and so on, each a mapping with a name and a type."""
-    for connection in public.sequence(kind).mappings(
-            'an item of ' + kind, 'a mapping with a name and a type'):
+    for connection in file.mappings(
+            public.sequence(kind), 'an item of ' + kind, 'a mapping with a name and a type'):
         connection.warn_of_unknown(('name', 'type'))
         name = connection.required_text('name')
         type_name = connection.required_text('type')

@@ -13,6 +13,7 @@ from rocon_uri.lint.launch_files import check_launch_file
 from rocon_uri.lint.surroundings import Surroundings
 from rocon_uri.sources.checked import CheckedMapping
 from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.yaml_data import key_place, value_place
 
 __all__ = ['check_spec']
 
@@ -52,10 +53,10 @@ def _check_interface(spec: CapabilityInterface, source: CheckedMapping, file: Ch
         file.check_ros_name(name, element.kind, elements.key_place(name))
         if section != 'parameters':     # their types are words like int and URDF
             file.check_type(element.type or '', '%s %s' % (element.kind, quoted(name)),
-                            elements.mapping(name).value_place('type'))
+                            value_place(elements.get(name), 'type'))
     for index, name in enumerate(spec.dynamic_parameters):
         file.check_ros_name(name, 'dynamic_parameter',
-                            sections.sequence('dynamic_parameters').value_place(index))
+                            value_place(sections.get('dynamic_parameters'), index))
 
 
 def _check_semantic_interface(spec: SemanticCapabilityInterface, source: CheckedMapping,
@@ -66,7 +67,7 @@ def _check_semantic_interface(spec: SemanticCapabilityInterface, source: Checked
                             source.value_place('global_namespace'))
     kinds = source.mapping('remappings')
     for kind in kinds:
-        new_names = kinds.mapping(kind)
+        new_names = kinds.mapping(kind, is_checked=False)
         for name in new_names:
             file.check_ros_name(new_names.get(name), 'new name', new_names.value_place(name))
     try:
@@ -86,7 +87,7 @@ def _check_provider(spec: CapabilityProvider, source: CheckedMapping, file: Chec
     if interface is not None:
         kinds = source.mapping('remappings')
         for kind in kinds:
-            file.check_remapped_names(kind, kinds.mapping(kind), interface)
+            file.check_remapped_names(kind, kinds.mapping(kind, is_checked=False), interface)
     for dependency in spec.dependencies.values():
         _check_dependency(dependency, source, file, surroundings)
     if spec.name in surroundings.cycles:
@@ -99,13 +100,13 @@ def _check_dependency(dependency: DependsOnRelationship, source: CheckedMapping,
     name, preferred = dependency.capability_name, dependency.preferred_provider
     place = source.value_place('depends_on')
     if isinstance(given, dict):
-        place = source.mapping('depends_on').key_place(name)
+        place = key_place(given, name)
     elif isinstance(given, list):
-        place = source.sequence('depends_on').value_place(given.index(name))
+        place = value_place(given, given.index(name))
     file.check_exists(name, 'capability', surroundings.capabilities, place)
     if preferred is None:
         return
-    place = source.mapping('depends_on').mapping(name).value_place('provider')
+    place = value_place(given[name], 'provider')
     if file.check_exists(preferred, 'preferred provider', surroundings.providers, place):
         implemented = surroundings.providers[preferred].implements
         redefined = getattr(surroundings.capabilities.get(implemented), 'redefines', None)

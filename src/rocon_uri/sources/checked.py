@@ -2,7 +2,7 @@
 What strangers wrote, read key by key: each refusal has its place and says what was expected.
 
 A `Reading` is of one file. It reads the file, and decides what becomes of a fault: it raises the
-first one. The collections in the file are asked for what should be in them:
+first one. A `CheckedMapping` is asked for what should be in it:
 
 >>> from rocon_uri.sources.yaml_data import YamlError
 >>> reading = Reading('dance.rapp', YamlError)
@@ -11,25 +11,26 @@ first one. The collections in the file are asked for what should be in them:
 Traceback (most recent call last):
     ...
 rocon_uri.sources.yaml_data.YamlError: dance.rapp:1:10: launch is a list, expected text
->>> print(rapp.unknown_key('iocn', ['launch', 'icon']).sentence)
+>>> print(rapp.unknown_key('iocn', ['launch', 'icon']).problem)
 unknown key 'iocn' in the rapp (did you mean 'icon'?)
 
 A subclass of `Reading` that collects faults overrides `Reading.refuse`. What it has refused is read
 as if nothing were there.
 
-``what`` is always what an error calls the thing; ``%s`` in it is its key or its place in a list.
+``what`` is always what an error calls the thing, and ``expected`` what it says in place of 'a
+mapping' or 'a list'. ``%s`` in ``what`` is the key.
 """
 from __future__ import annotations
 
 import re
-from typing import Any, Callable, Dict, Iterator, Optional, Sequence, Union
+from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Union
 
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.wording import did_you_mean, near_misses, shown
 from rocon_uri.sources.yaml_data import YamlError, key_place, place_of, value_place
 from rocon_uri.sources.yaml_source import load
 
-__all__ = ['CheckedMapping', 'CheckedSequence', 'Reading', 'is_text']
+__all__ = ['CheckedMapping', 'Reading']
 
 _MAX_SUSPECTS = 100     # unknown keys that are compared with a missing one
 
@@ -41,8 +42,8 @@ class Reading:
     One file that is read, and what becomes of its faults: the first one is raised.
 
     :param str file_name: the file, as errors name it
-    :param error: what to raise: a subclass of `LocatedError`, or what makes one of
-        (problem, file_name, line, column)
+    :param error: what makes the error to raise of (problem, file_name, line, column), such as a
+        subclass of `LocatedError`
     """
 
     def __init__(self, file_name: str, error: Callable[..., LocatedError]) -> None:
@@ -54,12 +55,7 @@ class Reading:
         return self._error(problem, self.file_name, *place)
 
     def refuse(self, fault: LocatedError) -> None:
-        """
-        Deal with a fault: raise it.
-
-        :param LocatedError fault: one that `fault` made
-        :raises LocatedError: always
-        """
+        """Deal with a fault: raise it."""
         raise fault
 
     def warn(self, problem: str, place: Place = NOWHERE) -> None:
@@ -74,7 +70,7 @@ class Reading:
         """
         What a text holds, read as YAML.
 
-        :returns: as `rocon_uri.sources.yaml_source.load`
+        :returns: as `rocon_uri.sources.yaml_source.load`; None if it was refused
         """
         try:
             return load(content, self.file_name)
@@ -84,31 +80,44 @@ class Reading:
 
     def load(self, content: Union[str, bytes], what: str, expected: str = 'a mapping'
              ) -> CheckedMapping:
-        """The mapping that a text holds. Parameters as in `mapping`."""
-        return self.mapping(self.data(content), what, (1, 1), expected)
+        """The mapping that a text holds."""
+        return self.mapping(self.data(content), what, expected, (1, 1))
 
-    def mapping(self, data: object, what: str, place: Place = NOWHERE,
-                expected: str = 'a mapping') -> CheckedMapping:
+    def mapping(self, data: object, what: str, expected: str = 'a mapping',
+                place: Place = NOWHERE) -> CheckedMapping:
         """
         Data as a mapping, in which no key may be repeated.
 
-        :param data: plain data
-        :param str what: what errors call it
         :param place: where errors say that it is, if it does not know that itself
-        :param str expected: what errors say that they expected
-        :returns: `CheckedMapping`, an empty one if it was refused
+        :returns: `CheckedMapping`; an empty one if it was refused
         """
         if not isinstance(data, dict):
-            known_place = place if place_of(data) == NOWHERE else place_of(data)
+            own_place = place_of(data)
             self.refuse(self.fault('%s is %s, expected %s' % (what, shown(data), expected),
-                                   known_place))
+                                   place if own_place == NOWHERE else own_place))
             data = {}
         mapping = CheckedMapping(self, data, what)
         mapping.refuse_duplicates()
         return mapping
 
+    def mappings(self, items: Sequence[object], what: str, expected: str = 'a mapping'
+                 ) -> Iterator[CheckedMapping]:
+        """The items of a list as mappings, without those that were refused."""
+        for index, item in enumerate(items):
+            mapping = self.mapping(item, what, expected, value_place(items, index))
+            if isinstance(item, dict):
+                yield mapping
+
+    def text(self, value: object, what: str, place: Place) -> str:
+        """A value as text that says something, and that a file can hold; '' if it was refused."""
+        if isinstance(value, str) and value != '' and (
+                value.isascii() or not _find_surrogate(value)):
+            return value
+        self.refuse(self.fault('%s is %s, expected text' % (what, shown(value)), place))
+        return ''
+
     def refuse_duplicates(self, data: object) -> None:
-        """Refuse data in which some mapping, at whatever depth, has a key twice."""
+        """Refuse data in which a mapping, at whatever depth, has a key twice."""
         if isinstance(data, dict):
             CheckedMapping(self, data, '').refuse_duplicates()
         if isinstance(data, (dict, list)):
@@ -116,169 +125,100 @@ class Reading:
                 self.refuse_duplicates(below)
 
 
-class _Checked:
-    """What a mapping and a sequence have in common: something is read from them by a key."""
-
-    __slots__ = ('reading', 'data')
-
-    #: what is read, untouched
-    data: Any
-
-    def __init__(self, reading: Reading, data: object) -> None:
-        self.reading = reading
-        self.data = data
-
-    @property
-    def place(self) -> Place:
-        """Where it begins."""
-        return place_of(self.data)
-
-    def value_place(self, key: object) -> Place:
-        """Where the value of a key, or an item, begins."""
-        return value_place(self.data, key)
-
-    def get(self, key: Any) -> Any:
-        """The value of a key, or an item, unread."""
-        return self.data[key]
-
-    def wrong(self, key: object, expected: str, what: str = '') -> LocatedError:
-        """The error to raise for the value of a key where something else is expected."""
-        return self.reading.fault('%s is %s, expected %s' % (
-            self._called(key, what), shown(self.get(key)), expected), self.value_place(key))
-
-    def text(self, key: object, what: str = '', may_be_empty: bool = False) -> Optional[str]:
-        """
-        The text that a key has.
-
-        :returns: str; None if there is nothing, or if it was refused
-        """
-        value = self.get(key)
-        if value is None or is_text(value) or may_be_empty and value == '':
-            return value    # type: ignore[no-any-return]
-        self.reading.refuse(self.wrong(key, 'text', what))
-        return None
-
-    def text_at(self, key: object, what: str = '') -> str:
-        """The text that must stand at a key that is there; '' if it was refused."""
-        value = self.get(key)
-        if is_text(value):
-            return value    # type: ignore[no-any-return]
-        self.reading.refuse(self.wrong(key, 'text', what))
-        return ''
-
-    def mapping(self, key: object, what: str = '', expected: str = 'a mapping',
-                or_empty_list: bool = True) -> CheckedMapping:
-        """
-        The mapping that a key has. Its keys may be repeated.
-
-        :param bool or_empty_list: is ``[]`` read as an empty one, as people write it?
-        :returns: `CheckedMapping`; an empty one if there is nothing, or if it was refused
-        """
-        value = self.get(key)
-        if not isinstance(value, dict):
-            if value is not None and not (or_empty_list and value == []):
-                self.reading.refuse(self.wrong(key, expected, what))
-            value = {}
-        return CheckedMapping(self.reading, value, what or str(key), key)
-
-    def keys_once(self, key: object, what: str = '', expected: str = 'a mapping'
-                  ) -> CheckedMapping:
-        """The mapping that a key has, as `mapping` gives it, in which no key may be repeated."""
-        mapping = self.mapping(key, what, expected)
-        mapping.refuse_duplicates()
-        return mapping
-
-    def sequence(self, key: object, what: str = '', expected: str = 'a list') -> CheckedSequence:
-        """
-        The list that a key has.
-
-        :returns: `CheckedSequence`; an empty one for nothing or ``{}``, or if it was refused
-        """
-        value = self.get(key)
-        if not isinstance(value, (list, tuple)):
-            if value is not None and value != {}:
-                self.reading.refuse(self.wrong(key, expected, what))
-            value = []
-        return CheckedSequence(self.reading, value)
-
-    def _called(self, key: object, what: str) -> str:
-        return what.replace('%s', shown(key)) if what else str(key)
-
-
-class CheckedSequence(_Checked):
-    """
-    A list that is read item by item.
-
-    :param Reading reading: what becomes of faults
-    :param data: list or tuple
-    """
-
-    __slots__ = ()
-
-    def __len__(self) -> int:
-        return len(self.data)
-
-    def mappings(self, what: str, expected: str = 'a mapping') -> Iterator[CheckedMapping]:
-        """The items, each of which must be a mapping that is not empty, with no repeated key."""
-        for index, item in enumerate(self.data):
-            if isinstance(item, dict):
-                yield self.keys_once(index, what)
-            else:
-                self.reading.refuse(self.wrong(index, expected, what))
-
-    def texts(self, what: str) -> Iterator[str]:
-        """The items, each of which must be text."""
-        for index in range(len(self.data)):
-            text = self.text_at(index, what)
-            if text:
-                yield text
-
-
-class CheckedMapping(_Checked):
+class CheckedMapping:
     """
     A mapping that is read key by key.
 
     :param Reading reading: what becomes of faults
     :param dict data: plain data
     :param str what: what errors call it
-    :param key: what ``%s`` in that stands for, if it is there. Errors then also call what is
-        within by it: ``type of topic 'scan'``
+    :param key: its own key, if that is its name. Errors then call what is in it by that name too:
+        ``type of topic 'scan'``
     """
 
-    __slots__ = ('_what', '_key')
+    __slots__ = ('reading', 'data', '_what', '_key')
 
     def __init__(self, reading: Reading, data: Dict[Any, Any], what: str,
                  key: object = None) -> None:
-        super().__init__(reading, data)
+        self.reading = reading
+        self.data: Any = data
         self._what = what
         self._key = key
 
     def __iter__(self) -> Iterator[Any]:
         return iter(self.data)
 
-    def __contains__(self, key: object) -> bool:
-        return key in self.data
-
     @property
     def title(self) -> str:
         """What errors call it."""
-        return self._called(self._key, self._what)
+        return _called(self._what, self._key)
 
-    def get(self, key: object) -> Any:
-        """The value of a key, unread; None if there is none."""
-        return self.data.get(key)
+    @property
+    def place(self) -> Place:
+        """Where it begins."""
+        return place_of(self.data)
 
     def key_place(self, key: object) -> Place:
         """Where a key stands."""
         return key_place(self.data, key)
 
+    def value_place(self, key: object) -> Place:
+        """Where the value of a key begins."""
+        return value_place(self.data, key)
+
+    def get(self, key: object) -> Any:
+        """The value of a key, unread; None if there is none."""
+        return self.data.get(key)
+
+    def wrong(self, key: object, expected: str, what: str = '') -> LocatedError:
+        """The error to raise for the value of a key where something else is expected."""
+        return self.reading.fault('%s is %s, expected %s' % (
+            self._value_called(key, what), shown(self.get(key)), expected), self.value_place(key))
+
+    def text(self, key: str, may_be_empty: bool = False) -> Optional[str]:
+        """The text that a key may have; None if there is nothing, or if it was refused."""
+        value = self.data.get(key)
+        if value is None or value == '' and may_be_empty:
+            return value    # type: ignore[no-any-return]
+        return self.text_at(key) or None
+
+    def text_at(self, key: object, what: str = '') -> str:
+        """The text that a key has; '' if it was refused."""
+        value = self.data[key]
+        if value.__class__ is str and value and value.isascii():    # as nearly all are
+            return value
+        return self.reading.text(value, self._value_called(key, what), self.value_place(key))
+
     def key_text(self, key: object, what: str) -> str:
         """A key, which must be text; '' if it was refused."""
-        if is_text(key):
-            return key      # type: ignore[return-value]
-        self.reading.refuse(self.reading.fault(
-            '%s is %s, expected text' % (what, shown(key)), self.key_place(key)))
-        return ''
+        return self.reading.text(key, what, self.key_place(key))
+
+    def mapping(self, key: object, what: str = '', expected: str = 'a mapping',
+                is_checked: bool = True) -> CheckedMapping:
+        """
+        The mapping that a key may have.
+
+        :param bool is_checked: is no key of it repeated?
+        :returns: `CheckedMapping`; an empty one for nothing or ``[]``, or if it was refused
+        """
+        value = self.data.get(key)
+        if not isinstance(value, dict):
+            if value is not None and value != []:
+                self.reading.refuse(self.wrong(key, expected, what))
+            value = {}
+        mapping = CheckedMapping(self.reading, value, what or str(key), key)
+        if is_checked:
+            mapping.refuse_duplicates()
+        return mapping
+
+    def sequence(self, key: object, expected: str = 'a list') -> List[Any]:
+        """The list that a key may have, unread; empty for nothing or ``{}``, or if refused."""
+        value = self.data.get(key)
+        if isinstance(value, (list, tuple)):
+            return value    # type: ignore[return-value]
+        if value is not None and value != {}:
+            self.reading.refuse(self.wrong(key, expected))
+        return []
 
     def required(self, key: str, known: Sequence[str] = ()) -> Any:
         """
@@ -289,23 +229,24 @@ class CheckedMapping(_Checked):
         :returns: None if it was refused
         """
         value = self.data.get(key)
-        if value is None:
-            unknown = [name for name in self.data if isinstance(name, str) and name not in known]
-            for near in near_misses(key, unknown[:_MAX_SUSPECTS] if known else ()):
-                self.reading.refuse(self.reading.fault('unknown key %s, and %s has no %s%s' % (
-                    shown(near), self.title, key, did_you_mean([key])), self.key_place(near)))
-                return None
-            self.reading.refuse(self.reading.fault(
-                '%s has no %s' % (self.title, key),
-                self.key_place(key) if key in self.data else self.place))
-        return value
+        if value is not None:
+            return value
+        unknown = [name for name in self.data if isinstance(name, str) and name not in known]
+        for near in near_misses(key, unknown[:_MAX_SUSPECTS] if known else ()):
+            self.reading.refuse(self.reading.fault('unknown key %s, and %s has no %s%s' % (
+                shown(near), self.title, key, did_you_mean([key])), self.key_place(near)))
+            return None
+        self.reading.refuse(self.reading.fault(
+            '%s has no %s' % (self.title, key),
+            self.key_place(key) if key in self.data else self.place))
+        return None
 
     def required_text(self, key: str, known: Sequence[str] = ()) -> str:
         """The text that a key must have; '' if it was refused. Parameters as in `required`."""
-        return '' if self.required(key, known) is None else self.text(key) or ''
+        return '' if self.required(key, known) is None else self.text_at(key)
 
     def refuse_duplicates(self, harmless: Sequence[str] = ()) -> None:
-        """Refuse to have a key twice, since one of the two would be lost, but for harmless ones."""
+        """Refuse a repeated key, since one of its values would be lost; warn of harmless ones."""
         for key, _, place in getattr(self.data, 'repeated', ()):
             problem = 'duplicate key %s%s' % (shown(key), self._within(' in '))
             if key in harmless:
@@ -326,15 +267,13 @@ class CheckedMapping(_Checked):
                 unknown = self.unknown_key(key, known)
                 self.reading.warn(unknown.problem, unknown.place)
 
-    def _called(self, key: object, what: str) -> str:
-        return super()._called(key, what) + ('' if what else self._within(' of '))
+    def _value_called(self, key: object, what: str) -> str:
+        return _called(what, key) if what else str(key) + self._within(' of ')
 
     def _within(self, preposition: str) -> str:
-        """What to say of something in it: where it is, if it has a name of its own."""
+        """The end of what errors call something in it, if it has a name of its own."""
         return preposition + self.title if '%s' in self._what else ''
 
 
-def is_text(value: object) -> bool:
-    """Is it a text that says something, and that a file can hold?"""
-    return isinstance(value, str) and value != '' and (
-        value.isascii() or not _find_surrogate(value))
+def _called(what: str, key: object) -> str:
+    return what.replace('%s', shown(key))
