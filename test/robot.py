@@ -150,7 +150,7 @@ class Server:
         self.robot, self.name = robot, '/' + name
         for parameter, value in (parameters or {}).items():
             rospy.set_param('%s/%s' % (self.name, parameter), value)
-        self.log = robot.folder / (name + '.log')
+        self.log = robot.folder / (name.replace('/', '_') + '.log')
         self.events = []
         self.status_message = None
         self._subscribers = [
@@ -165,8 +165,9 @@ class Server:
             self.process = subprocess.Popen(
                 [sys.executable, '-c', 'from capabilities.server import main\n'
                  'raise SystemExit(main())', str(self.robot.workspace),
-                 '__name:=' + self.name.lstrip('/'), *self.arguments],
-                env=self.robot.server_environment, stdout=log, stderr=subprocess.STDOUT,
+                 '__name:=' + self.name.rpartition('/')[2], *self.arguments],
+                env=dict(self.robot.server_environment,
+                         ROS_NAMESPACE=self.name.rpartition('/')[0] or '/'), stdout=log, stderr=subprocess.STDOUT,
                 stdin=subprocess.DEVNULL, cwd=str(self.robot.folder), start_new_session=True,
                 preexec_fn=preexec_fn)
         return self

@@ -8,8 +8,6 @@ processes, and no ROS: what is to be published goes to an `Audience`.
 """
 from __future__ import annotations
 
-import logging
-import os
 import threading
 import time
 from typing import TYPE_CHECKING, Callable, Dict, List, Optional, TypeVar
@@ -17,12 +15,11 @@ from typing import TYPE_CHECKING, Callable, Dict, List, Optional, TypeVar
 from capabilities.actions import ENDS, Action, Do, RefusedRequest, StartResult
 from capabilities.catalogue import Catalogue
 from capabilities.graph import Graph
-from capabilities.instances import USER_SERVICE_REASON, CapabilityInstance
+from capabilities.instances import CapabilityInstance
 from capabilities.launch_manager import LaunchManager, _special_nodelet_manager_capability
 from capabilities.planning.plan import RunningProvider, StartPlan, error_text
-from capabilities.planning.providers import LaunchFacts, plan_start
+from capabilities.starts import Starts, running_providers
 from capabilities.status import status_entries
-from rocon_uri.sources.launch_file import LaunchFiles
 from rocon_uri.sources.wording import quoted
 
 if TYPE_CHECKING:
@@ -43,6 +40,9 @@ if TYPE_CHECKING:
         def must_end(self, exit_status: int) -> None:
             """The server is to end with this status."""
 
+        def error(self, text: str) -> None:
+            """Something is to be logged as an error."""
+
 __all__ = ['Runtime']
 
 T = TypeVar('T')
@@ -51,8 +51,6 @@ _EVENTS = {Do.TELL_LAUNCHED: 'launched', Do.TELL_STOPPED: 'stopped',
            Do.TELL_TERMINATED: 'terminated'}
 _LOSSES = 3                 # so many losses of the nodelet manager
 _LOSSES_SECONDS = 60.0      # in this time are one too many
-
-_logger = logging.getLogger('rosout.capabilities')
 
 
 class Runtime:
@@ -74,7 +72,7 @@ class Runtime:
         self.catalogue = catalogue
         self._audience = audience
         self._ends_without_nodelet_manager = ends_without_nodelet_manager
-        self._launch_files = LaunchFiles()
+        self._starts = Starts()
         self._manager: Optional[LaunchManager] = None
         self._has_manager = threading.Event()
         self._by_pid: Dict[int, CapabilityInstance] = {}
@@ -106,13 +104,14 @@ class Runtime:
     def plan(self, capability: str, preferred: str) -> StartPlan:
         """What a start would do (`StartPlan`); starts nothing."""
         with self.lock:
-            running = self._running()
-        return self._plan(capability, preferred, running, self._launch_files)
+            running = running_providers(self.graph)
+        return self._plan(capability, preferred, running, may_read=True)
 
     def start(self, capability: str, preferred: str) -> StartResult:
         """Start a capability for as long as nobody stops it."""
         def start(plan: StartPlan) -> StartResult:
-            return self.graph.start(plan.steps[-1].capability, self._instances(plan))
+            return self.graph.start(plan.steps[-1].capability,
+                                    self._starts.instances(self.catalogue, plan))
         return self._with_plan(capability, preferred, start)
 
     def use(self, capability: str, preferred: str, bond_id: str) -> None:
@@ -124,7 +123,7 @@ class Runtime:
             if current is not None and preferred not in ('', current.provider):
                 raise RefusedRequest('Capability %s is already running with provider %s' % (
                     quoted(name), quoted(current.provider)))
-            self.graph.use(name, self._instances(plan), bond_id, capability)
+            self.graph.use(name, self._starts.instances(self.catalogue, plan), bond_id, capability)
         with self.lock:
             self.check_running()
             self.graph.check_bond(bond_id)
@@ -161,7 +160,7 @@ class Runtime:
                         return
                     self.graph.could_not_start(name, '', str(error))
                     self._carry_out()
-                _logger.error('autostart of %s: %s', quoted(name), error)
+                    self._audience.error('autostart of %s: %s' % (quoted(name), error))
 
     def reload(self, read: Callable[[], Catalogue]) -> None:
         """
@@ -204,11 +203,11 @@ class Runtime:
             if instance is None:
                 return
             unexpected = self.graph.current(instance.interface) is instance
+            if unexpected:
+                self._audience.error('capability %s by %s ended unexpectedly: %s' % (
+                    quoted(instance.interface), quoted(instance.provider), text))
             self.graph.ended(instance, exit_code, 'ended unexpectedly: %s' % text)
             self._carry_out()
-        if unexpected:
-            _logger.error('capability %s by %s ended unexpectedly: %s',
-                          quoted(instance.interface), quoted(instance.provider), text)
 
     def nodelet_manager_ended(self, pid: int, exit_code: int, text: str) -> None:
         """The nodelet manager is gone: it is started again, or the server ends."""
@@ -225,7 +224,7 @@ class Runtime:
             try:
                 self.manager.start_nodelet_manager()
             except RuntimeError as error:
-                _logger.error('the nodelet manager cannot be started again: %s', error)
+                self._audience.error('the nodelet manager cannot be started again: %s' % error)
                 self._audience.must_end(1)
                 return
             self._tell_of_manager('launched')
@@ -260,8 +259,8 @@ class Runtime:
             self.plan(capability, preferred)    # reads the launch files that changed
             with self.lock:
                 self.check_running()
-                plan = self._plan(capability, preferred, self._running(),
-                                  self._launch_files.remembered())
+                plan = self._plan(capability, preferred, running_providers(self.graph),
+                                  may_read=False)
                 if plan.unread:     # of what has been reloaded or begun to stop meanwhile
                     continue
                 if plan.faults:
@@ -271,38 +270,10 @@ class Runtime:
                 return result
 
     def _plan(self, capability: str, preferred: str, running: List[RunningProvider],
-              launch_files: LaunchFacts) -> StartPlan:
-        catalogue = self.catalogue
+              may_read: bool) -> StartPlan:
         has_nodelet_manager = self._manager is not None and self._manager.has_nodelet_manager
-        return plan_start(catalogue.spec_index, capability, preferred, catalogue.defaults, running,
-                          launch_files, has_nodelet_manager)
-
-    def _running(self) -> List[RunningProvider]:
-        """All instances, as a plan has to know them."""
-        return [RunningProvider(instance.interface, instance.provider, instance.launch_file,
-                                self.graph.stopping(instance.interface) is instance)
-                for instance in self.graph.instances]
-
-    def _instances(self, plan: StartPlan) -> List[CapabilityInstance]:
-        """New instances of what a plan has to start."""
-        catalogue = self.catalogue
-        providers = catalogue.spec_index.providers
-        paths = catalogue.spec_index.provider_paths
-        launch_files = self._launch_files.remembered()
-        instances = []
-        for step in plan.steps:
-            if not step.running:
-                spec, path = providers[step.provider], paths[step.provider]
-                uses_nodelet_manager = spec.nodelet_manager is not None
-                if spec.launch_file is not None:
-                    launch_file = launch_files.look_at(spec.launch_file, os.path.dirname(path))
-                    uses_nodelet_manager |= (launch_file is not None
-                                             and launch_file.names_nodelet_manager)
-                instances.append(CapabilityInstance(
-                    spec, path, step.required_by or USER_SERVICE_REASON,
-                    catalogue.redefines(step.capability), step.launch_file, step.depends_on,
-                    uses_nodelet_manager))
-        return instances
+        return self._starts.plan(self.catalogue, capability, preferred, running,
+                                 has_nodelet_manager, may_read)
 
     def _wait_for(self, do: Callable[[], List[CapabilityInstance]]) -> None:
         """Do something that stops instances, and wait until they are gone. Takes the lock."""
@@ -350,7 +321,7 @@ class Runtime:
             pid = self.manager.run_capability_provider(
                 instance.spec, instance.provider_path, remember)
         except RuntimeError as error:
-            _logger.error('capability %s: %s', quoted(instance.interface), error)
+            self._audience.error('capability %s: %s' % (quoted(instance.interface), error))
             self.graph.launch_failed(instance, str(error))
         else:
             self.graph.launched(instance, pid)

@@ -125,6 +125,10 @@ class CapabilityServer:
         self.__entries = entries
         self.__outbox.put(self.__publish_status)
 
+    def error(self, text: str) -> None:
+        """Log an error."""
+        self.__outbox.put(lambda: _logger.error('%s', text))
+
     # how it serves
 
     def __load_capabilities(self) -> None:

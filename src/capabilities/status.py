@@ -1,9 +1,9 @@
 """What the capability server says about each capability that is wanted, ends or has failed."""
 from __future__ import annotations
 
-from typing import List, NamedTuple, Tuple
+from typing import Dict, List, NamedTuple, Tuple
 
-from capabilities.instances import NO_EXIT_CODE, CapabilityInstance
+from capabilities.instances import NO_EXIT_CODE
 from capabilities.roster import Roster
 
 __all__ = ['FAILED', 'StatusEntry', 'status_entries']
@@ -50,17 +50,17 @@ def status_entries(roster: Roster) -> List[StatusEntry]:
     >>> status_entries(Roster(lambda: 0.0))
     []
     """
-    entries = [_entry(roster, instance) for instance in roster.instances]
+    dependents: Dict[int, Dict[str, None]] = {}     # names, which keep their order, by id
+    for instance in roster.instances:
+        for dependency in instance.dependencies:
+            dependents.setdefault(id(dependency), {})[instance.interface] = None
+    entries = [StatusEntry(
+        instance.interface, instance.provider, instance.state.value, instance.started,
+        instance.reference_count, tuple(dependents.get(id(instance), ())), instance.pid or 0,
+        instance.since, NO_EXIT_CODE, '; '.join(instance.notes.values()))
+        for instance in roster.instances]
     for failure in roster.failures.values():
         entries.append(StatusEntry(
             failure.interface, failure.provider, FAILED, failure.started, failure.uses,
             failure.dependents, 0, failure.since, failure.exit_code, failure.text))
     return entries
-
-
-def _entry(roster: Roster, instance: CapabilityInstance) -> StatusEntry:
-    dependents = dict.fromkeys(other.interface for other in roster.dependents(instance))
-    return StatusEntry(
-        instance.interface, instance.provider, instance.state.value, instance.started,
-        instance.reference_count, tuple(dependents), instance.pid or 0, instance.since,
-        NO_EXIT_CODE, '; '.join(instance.notes.values()))
