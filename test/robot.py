@@ -167,9 +167,9 @@ class Server:
                  'raise SystemExit(main())', str(self.robot.workspace),
                  '__name:=' + self.name.rpartition('/')[2], *self.arguments],
                 env=dict(self.robot.server_environment,
-                         ROS_NAMESPACE=self.name.rpartition('/')[0] or '/'), stdout=log, stderr=subprocess.STDOUT,
-                stdin=subprocess.DEVNULL, cwd=str(self.robot.folder), start_new_session=True,
-                preexec_fn=preexec_fn)
+                         ROS_NAMESPACE=self.name.rpartition('/')[0] or '/'),
+                stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                cwd=str(self.robot.folder), start_new_session=True, preexec_fn=preexec_fn)
         return self
 
     def __enter__(self):

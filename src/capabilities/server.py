@@ -69,6 +69,7 @@ class CapabilityServer:
         self.__entries: List[StatusEntry] = []
         self.__published: Optional[CapabilityStatuses] = None
         self.__exit_status: Optional[int] = None
+        self.__has_started = False      # anything that would have to be ended
         self.__has_ended = threading.Event()
         # A signal handler may write to a pipe; it must not touch what the main thread may hold.
         self.__wake_up_read, self.__wake_up = os.pipe()
@@ -91,6 +92,12 @@ class CapabilityServer:
         finally:
             self.shutdown()
         return self.__exit_status or 0
+
+    def handle_signal(self, number: int, frame: object) -> None:
+        """Have `spin` end; at once (by SystemExit) as long as nothing was started."""
+        if not self.__has_started:
+            raise SystemExit(0)
+        self.must_end(0)
 
     def must_end(self, exit_status: int) -> None:
         """Have `spin` end, and return at once; for signal handlers too."""
@@ -166,6 +173,7 @@ class CapabilityServer:
         end_leftovers(run, _logger.warning)
         if self.__exit_status is not None:
             return
+        self.__has_started = True
         runtime.manager = LaunchManager(
             screen=parameters.use_screen, nodelet_manager_name=parameters.nodelet_manager_name,
             listener=runtime, run=run, nodelet_manager=parameters.nodelet_manager)
@@ -176,7 +184,8 @@ class CapabilityServer:
         _logger.info('capability server ready')
         if DiagnosticArray is not None:
             threading.Thread(target=self.__diagnose, name='diagnostics', daemon=True).start()
-        runtime.autostart(parameters.autostart)
+        if self.__exit_status is None:
+            runtime.autostart(parameters.autostart)
         os.read(self.__wake_up_read, 1)
 
     def __reload(self) -> Catalogue:
@@ -291,11 +300,11 @@ def main(sysargv: Optional[List[str]] = None) -> int:
         _log_faults(error)
         return _finish(_BAD_CONFIGURATION)
     for number in signal.SIGINT, signal.SIGTERM:
-        signal.signal(number, lambda number, frame: server.must_end(0))
+        signal.signal(number, server.handle_signal)
     try:
         status = server.spin()
-    except SystemExit:
-        status = _BAD_CONFIGURATION
+    except SystemExit as end:
+        status = int(end.code or 0)
     return _finish(status)
 
 
