@@ -4,7 +4,7 @@ How a spec is read: from a text to plain data, and what all three kinds of specs
 from __future__ import annotations
 
 from os import PathLike
-from typing import IO, Callable, List, Mapping, Sequence, Tuple, TypeVar, Union
+from typing import IO, Callable, Generic, List, Mapping, Sequence, TypeVar, Union
 
 from capabilities.specs.common import CapabilitySpec, InvalidSpec, SpecName, SpecWarning
 from rocon_uri.sources.checked import Reading
@@ -14,10 +14,9 @@ from rocon_uri.sources.wording import shown
 from rocon_uri.sources.yaml_data import MAX_SIZE
 from rocon_uri.sources.yaml_source import read_file
 
-__all__ = ['Invalid', 'SpecReading', 'load_spec_file', 'load_spec_file_path', 'load_spec_string']
+__all__ = ['SpecLoader', 'SpecReading']
 
-Invalid = Callable[..., InvalidSpec]    # one of the subclasses
-S = TypeVar('S', bound=CapabilitySpec)
+Spec = TypeVar('Spec', bound=CapabilitySpec)
 
 _KEYS = ('name', 'spec_version', 'spec_type', 'description')    # of every spec
 _MAX_WARNINGS = 100     # of unknown keys: a text with more is something else
@@ -25,7 +24,7 @@ _MAX_WARNINGS = 100     # of unknown keys: a text with more is something else
 
 class SpecReading(Reading):
     """
-    One spec that is read. What all specs have is read first.
+    One spec that is read. What every spec has is read first.
 
     :param spec: what should be a spec, as plain data
     :param str file_name: where it is from
@@ -38,7 +37,7 @@ class SpecReading(Reading):
     """
 
     def __init__(self, spec: object, file_name: str, spec_type: str, keys: Sequence[str],
-                 invalid: Invalid) -> None:
+                 invalid: Callable[..., InvalidSpec]) -> None:
         super().__init__(file_name, invalid)
         self.warnings: List[SpecWarning] = []
         self.keys = (*_KEYS, *keys)
@@ -60,7 +59,7 @@ class SpecReading(Reading):
         if len(self.warnings) < _MAX_WARNINGS:
             self.warnings.append(SpecWarning(problem, self.file_name, *place))
 
-    def finished(self, spec: S) -> S:
+    def finished(self, spec: Spec) -> Spec:
         """The spec that was read, with what is known about its reading."""
         spec.source = self.spec.data
         spec.file_name = self.file_name
@@ -88,53 +87,81 @@ class SpecReading(Reading):
                              place) from None
 
 
-def load_spec_string(string: str, file_name: str,
-                     invalid: Invalid) -> Tuple[Mapping[str, object], str]:
+class SpecLoader(Generic[Spec]):
     """
-    The plain data of a spec, and the name that errors give.
+    Reads the specs of one kind, from a dict, a text or a file.
 
-    :param str string: the text of the spec
-    :param str file_name: the name that errors give
+    :param str spec_type: the kind
+    :param keys: the names of what a spec of that kind has, beside what all have
     :param invalid: the subclass of `InvalidSpec` to raise
-    :returns: (`rocon_uri.yaml_source.YamlMapping`, str)
-    :raises InvalidSpec: if it is not YAML, or not a mapping
-    :raises AttributeError: if ``string`` is not a str
+    :param make: makes the spec of a `SpecReading`
     """
-    if not isinstance(string, str):
-        raise AttributeError('a spec is read from a str, found %s' % type(string).__name__)
-    return _loaded(string, file_name, invalid)
 
+    def __init__(self, spec_type: str, keys: Sequence[str], invalid: Callable[..., InvalidSpec],
+                 make: Callable[[SpecReading], Spec]) -> None:
+        self._spec_type = spec_type
+        self._keys = keys
+        self._invalid = invalid
+        self._make = make
 
-def load_spec_file(file_handle: Union[IO[str], IO[bytes]],
-                   invalid: Invalid) -> Tuple[Mapping[str, object], str]:
-    """
-    The plain data of a spec, from an open file. Parameters and errors as in `load_spec_string`.
+    def from_dict(self, spec: Mapping[str, object], file_name: str = '<dict>') -> Spec:
+        """
+        Make a spec of plain data.
 
-    :param file_handle: open for reading, as text or binary
-    :raises OSError: if it cannot be read
-    """
-    file_name = str(getattr(file_handle, 'name', '<file>'))
-    try:
-        content = file_handle.read(MAX_SIZE + 1)
-    except UnicodeDecodeError as error:
-        raise invalid('not %s text: %s' % (error.encoding, error.reason), file_name) from error
-    return _loaded(content, file_name, invalid)
+        :param dict spec: what a file would hold
+        :param str file_name: the name that errors give
+        :returns: the spec
+        :raises InvalidSpec: if the spec is not complete or has invalid entries; it is the subclass
+            for this kind of spec
+        """
+        reading = SpecReading(spec, file_name, self._spec_type, self._keys, self._invalid)
+        return reading.finished(self._make(reading))
 
+    def from_string(self, string: str, file_name: str = '<string>') -> Spec:
+        """
+        Read a spec.
 
-def load_spec_file_path(file_path: Union[str, PathLike[str]],
-                        invalid: Invalid) -> Tuple[Mapping[str, object], str]:
-    """
-    The plain data of a spec, from a file. Parameters and errors as in `load_spec_string`.
+        :param str string: the text of the spec
+        :param str file_name: the name that errors give
+        :returns: the spec
+        :raises InvalidSpec: as `from_dict`, or if the text is not YAML
+        :raises AttributeError: if ``string`` is not a str
+        """
+        if not isinstance(string, str):
+            raise AttributeError('a spec is read from a str, found %s' % type(string).__name__)
+        return self._load(string, file_name)
 
-    :param file_path: where the file is
-    :raises OSError: if it is not there, or cannot be read
-    """
-    return _loaded(read_file(file_path), str(file_path), invalid)
+    def from_file(self, file_handle: Union[IO[str], IO[bytes]]) -> Spec:
+        """
+        Read the spec in an open file.
 
+        :param file_handle: open for reading, as text or binary
+        :returns: the spec
+        :raises InvalidSpec: as `from_dict`, or if the text is not YAML
+        :raises OSError: if the file cannot be read
+        """
+        file_name = str(getattr(file_handle, 'name', '<file>'))
+        try:
+            content = file_handle.read(MAX_SIZE + 1)
+        except UnicodeDecodeError as error:
+            raise self._invalid('not %s text: %s' % (error.encoding, error.reason),
+                                file_name) from error
+        return self._load(content, file_name)
 
-def _loaded(content: Union[str, bytes], file_name: str,
-            invalid: Invalid) -> Tuple[Mapping[str, object], str]:
-    return Reading(file_name, invalid).load(content, 'the spec').data, file_name
+    def from_file_path(self, file_path: Union[str, PathLike[str]]) -> Spec:
+        """
+        Read the spec in a file.
+
+        :param str file_path: where the file is
+        :returns: the spec
+        :raises InvalidSpec: as `from_dict`, or if the text is not YAML
+        :raises OSError: if the file is not there, or cannot be read
+        """
+        return self._load(read_file(file_path), str(file_path))
+
+    def _load(self, content: Union[str, bytes], file_name: str) -> Spec:
+        spec = Reading(file_name, self._invalid).load(content, 'the spec')
+        return self.from_dict(spec.data, file_name)
 
 
 def _is_name(name: str) -> bool:

@@ -26,11 +26,9 @@ interface (did you mean 'topics'?)
 """
 from __future__ import annotations
 
-from os import PathLike
-from typing import IO, Any, Dict, Mapping, Optional, Union
+from typing import Any, Dict, Optional
 
-from capabilities.specs._reading import (
-    SpecReading, load_spec_file, load_spec_file_path, load_spec_string)
+from capabilities.specs._reading import SpecLoader, SpecReading
 from capabilities.specs.common import NO_DESCRIPTION, CapabilitySpec, InvalidSpec
 from capabilities.specs.interface_sections import (
     GROUPINGS, SECTIONS, Interface, InterfaceElement)
@@ -98,56 +96,7 @@ class CapabilityInterface(Interface, CapabilitySpec):
         return {**CapabilitySpec.to_dict(self), 'interface': sections}
 
 
-def capability_interface_from_file_path(file_path: Union[str, PathLike[str]]
-                                        ) -> CapabilityInterface:
-    """
-    Read the capability interface in a file.
-
-    :param str file_path: where the file is
-    :returns: `CapabilityInterface`
-    :raises InvalidInterface: if the spec is not complete or has invalid entries
-    :raises OSError: if the file is not there, or cannot be read
-    """
-    return capability_interface_from_dict(*load_spec_file_path(file_path, InvalidInterface))
-
-
-def capability_interface_from_file(file_handle: Union[IO[str], IO[bytes]]) -> CapabilityInterface:
-    """
-    Read the capability interface in an open file.
-
-    :param file_handle: open for reading, as text or binary
-    :returns: `CapabilityInterface`
-    :raises InvalidInterface: if the spec is not complete or has invalid entries
-    :raises OSError: if the file cannot be read
-    """
-    return capability_interface_from_dict(*load_spec_file(file_handle, InvalidInterface))
-
-
-def capability_interface_from_string(string: str, file_name: str = '<string>'
-                                     ) -> CapabilityInterface:
-    """
-    Read a capability interface.
-
-    :param str string: the text of the spec
-    :param str file_name: the name that errors give
-    :returns: `CapabilityInterface`
-    :raises InvalidInterface: if the spec is not complete or has invalid entries
-    :raises AttributeError: if ``string`` is not a str
-    """
-    return capability_interface_from_dict(*load_spec_string(string, file_name, InvalidInterface))
-
-
-def capability_interface_from_dict(spec: Mapping[str, object], file_name: str = '<dict>'
-                                   ) -> CapabilityInterface:
-    """
-    Make a capability interface of plain data.
-
-    :param dict spec: what a file would hold
-    :param str file_name: the name that errors give
-    :returns: `CapabilityInterface`
-    :raises InvalidInterface: if the spec is not complete or has invalid entries
-    """
-    reading = SpecReading(spec, file_name, 'interface', ('interface',), InvalidInterface)
+def _make(reading: SpecReading) -> CapabilityInterface:
     interface = CapabilityInterface(reading.name, 1, reading.description)
     sections = reading.spec.mapping('interface')
     for section in sections:
@@ -157,7 +106,7 @@ def capability_interface_from_dict(spec: Mapping[str, object], file_name: str = 
             _read_dynamic_parameters(interface, sections)
         else:
             raise sections.unknown_key(section, (*SECTIONS, 'dynamic_parameters'), 'section')
-    return reading.finished(interface)
+    return interface
 
 
 def _read_section(interface: Interface, sections: CheckedMapping, section: str) -> None:
@@ -207,3 +156,12 @@ def _read_dynamic_parameters(interface: Interface, sections: CheckedMapping) -> 
         except RuntimeError:
             raise sections.reading.fault('duplicate dynamic_parameter ' + shown(name),
                                          place) from None
+
+
+_loader = SpecLoader('interface', ('interface',), InvalidInterface, _make)
+
+# Each is described where SpecLoader defines it, and in its own help().
+capability_interface_from_dict = _loader.from_dict
+capability_interface_from_file = _loader.from_file
+capability_interface_from_file_path = _loader.from_file_path
+capability_interface_from_string = _loader.from_string

@@ -14,11 +14,9 @@ laser_capability/LaserObservation:
 """
 from __future__ import annotations
 
-from os import PathLike
-from typing import IO, Dict, Mapping, Optional, Union
+from typing import Dict, Mapping, Optional
 
-from capabilities.specs._reading import (
-    SpecReading, load_spec_file, load_spec_file_path, load_spec_string)
+from capabilities.specs._reading import SpecLoader, SpecReading
 from capabilities.specs.common import InvalidSpec, SpecName
 from capabilities.specs.remappings import RemappingSpec, read_remappings
 from rocon_uri.sources.located import Place
@@ -157,65 +155,13 @@ class CapabilityProvider(RemappingSpec):
         return data
 
 
-def capability_provider_from_file_path(file_path: Union[str, PathLike[str]]
-                                       ) -> CapabilityProvider:
-    """
-    Read the capability provider in a file.
-
-    :param str file_path: where the file is
-    :returns: `CapabilityProvider`
-    :raises InvalidProvider: if the spec is not complete or has invalid entries
-    :raises OSError: if the file is not there, or cannot be read
-    """
-    return capability_provider_from_dict(*load_spec_file_path(file_path, InvalidProvider))
-
-
-def capability_provider_from_file(file_handle: Union[IO[str], IO[bytes]]) -> CapabilityProvider:
-    """
-    Read the capability provider in an open file.
-
-    :param file_handle: open for reading, as text or binary
-    :returns: `CapabilityProvider`
-    :raises InvalidProvider: if the spec is not complete or has invalid entries
-    :raises OSError: if the file cannot be read
-    """
-    return capability_provider_from_dict(*load_spec_file(file_handle, InvalidProvider))
-
-
-def capability_provider_from_string(string: str, file_name: str = '<string>'
-                                    ) -> CapabilityProvider:
-    """
-    Read a capability provider.
-
-    :param str string: the text of the spec
-    :param str file_name: the name that errors give
-    :returns: `CapabilityProvider`
-    :raises InvalidProvider: if the spec is not complete or has invalid entries
-    :raises AttributeError: if ``string`` is not a str
-    """
-    return capability_provider_from_dict(*load_spec_string(string, file_name, InvalidProvider))
-
-
-def capability_provider_from_dict(spec: Mapping[str, object], file_name: str = '<dict>'
-                                  ) -> CapabilityProvider:
-    """
-    Make a capability provider of plain data.
-
-    :param dict spec: what a file would hold
-    :param str file_name: the name that errors give
-    :returns: `CapabilityProvider`
-    :raises InvalidProvider: if the spec is not complete or has invalid entries
-    """
-    reading = SpecReading(
-        spec, file_name, 'provider',
-        ('implements', 'launch_file', 'depends_on', 'remappings', 'nodelet_manager'),
-        InvalidProvider)
+def _make(reading: SpecReading) -> CapabilityProvider:
     provider = CapabilityProvider(
         reading.name, 1, reading.required_name('implements'), reading.spec.text('launch_file'),
         reading.description, nodelet_manager=reading.spec.text('nodelet_manager'))
     _read_dependencies(reading, provider)
     read_remappings(reading, provider)
-    return reading.finished(provider)
+    return provider
 
 
 def _read_dependencies(reading: SpecReading, provider: CapabilityProvider) -> None:
@@ -249,3 +195,14 @@ def _add_dependency(reading: SpecReading, provider: CapabilityProvider, given: o
     if provider.depends_on(name):
         raise reading.fault('duplicate dependency %s' % shown(name), place)
     provider.add_depends_on(name, preferred_provider)
+
+
+_loader = SpecLoader(
+    'provider', ('implements', 'launch_file', 'depends_on', 'remappings', 'nodelet_manager'),
+    InvalidProvider, _make)
+
+# Each is described where SpecLoader defines it, and in its own help().
+capability_provider_from_dict = _loader.from_dict
+capability_provider_from_file = _loader.from_file
+capability_provider_from_file_path = _loader.from_file_path
+capability_provider_from_string = _loader.from_string

@@ -18,11 +18,9 @@ Semantic capability interfaces: an interface with a meaning of its own, and new 
 """
 from __future__ import annotations
 
-from os import PathLike
-from typing import IO, Dict, Mapping, Optional, Sequence, Set, Tuple, Union
+from typing import Dict, Mapping, Optional, Sequence, Set, Tuple
 
-from capabilities.specs._reading import (
-    SpecReading, load_spec_file, load_spec_file_path, load_spec_string)
+from capabilities.specs._reading import SpecLoader, SpecReading
 from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import CapabilityInterface, InterfaceElement
 from capabilities.specs.remappings import RemappingSpec, read_remappings
@@ -153,64 +151,20 @@ class SemanticCapabilityInterface(RemappingSpec):
         return InvalidSemanticInterface(problem, file_name, *place)
 
 
-def semantic_capability_interface_from_file_path(file_path: Union[str, PathLike[str]]
-                                                 ) -> SemanticCapabilityInterface:
-    """
-    Read the semantic capability interface in a file.
-
-    :param str file_path: where the file is
-    :returns: `SemanticCapabilityInterface`
-    :raises InvalidSemanticInterface: if the spec is not complete or has invalid entries
-    :raises OSError: if the file is not there, or cannot be read
-    """
-    return semantic_capability_interface_from_dict(
-        *load_spec_file_path(file_path, InvalidSemanticInterface))
-
-
-def semantic_capability_interface_from_file(file_handle: Union[IO[str], IO[bytes]]
-                                            ) -> SemanticCapabilityInterface:
-    """
-    Read the semantic capability interface in an open file.
-
-    :param file_handle: open for reading, as text or binary
-    :returns: `SemanticCapabilityInterface`
-    :raises InvalidSemanticInterface: if the spec is not complete or has invalid entries
-    :raises OSError: if the file cannot be read
-    """
-    return semantic_capability_interface_from_dict(
-        *load_spec_file(file_handle, InvalidSemanticInterface))
-
-
-def semantic_capability_interface_from_string(string: str, file_name: str = '<string>'
-                                              ) -> SemanticCapabilityInterface:
-    """
-    Read a semantic capability interface.
-
-    :param str string: the text of the spec
-    :param str file_name: the name that errors give
-    :returns: `SemanticCapabilityInterface`
-    :raises InvalidSemanticInterface: if the spec is not complete or has invalid entries
-    :raises AttributeError: if ``string`` is not a str
-    """
-    return semantic_capability_interface_from_dict(
-        *load_spec_string(string, file_name, InvalidSemanticInterface))
-
-
-def semantic_capability_interface_from_dict(spec: Mapping[str, object], file_name: str = '<dict>'
-                                            ) -> SemanticCapabilityInterface:
-    """
-    Make a semantic capability interface of plain data.
-
-    :param dict spec: what a file would hold
-    :param str file_name: the name that errors give
-    :returns: `SemanticCapabilityInterface`
-    :raises InvalidSemanticInterface: if the spec is not complete or has invalid entries
-    """
-    reading = SpecReading(
-        spec, file_name, 'semantic_interface', ('redefines', 'global_namespace', 'remappings'),
-        InvalidSemanticInterface)
+def _make(reading: SpecReading) -> SemanticCapabilityInterface:
     semantic_interface = SemanticCapabilityInterface(
         reading.name, reading.required_name('redefines'), 1, reading.description,
         reading.spec.text('global_namespace'))
     read_remappings(reading, semantic_interface)
-    return reading.finished(semantic_interface)
+    return semantic_interface
+
+
+_loader = SpecLoader(
+    'semantic_interface', ('redefines', 'global_namespace', 'remappings'), InvalidSemanticInterface,
+    _make)
+
+# Each is described where SpecLoader defines it, and in its own help().
+semantic_capability_interface_from_dict = _loader.from_dict
+semantic_capability_interface_from_file = _loader.from_file
+semantic_capability_interface_from_file_path = _loader.from_file_path
+semantic_capability_interface_from_string = _loader.from_string
