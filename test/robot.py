@@ -46,6 +46,8 @@ CAPABILITIES = [
     ('Patrol', 'robot/Nav', sleeper('patrol')),
     ('Camera', '', sleeper('camera')),
     ('Pair', '', sleeper('one') + sleeper('later')),
+    ('Loader', '', node('loader', 'exit 0') + sleeper('loaded')),
+    ('Partly', '', sleeper('there') + '<node pkg="test_nodes" type="nope" name="absent"/>'),
     ('Crash', '', node('crash', 'exit 5')),
     ('OnCrash', 'robot/Crash', sleeper('on_crash')),
     ('Slow', '', '<node pkg="robot" type="slow" name="slow"/>'),

@@ -53,6 +53,20 @@ def test_a_dead_node_is_seen(server):
     assert server.running() == ['Pair']
 
 
+def test_a_node_that_ends_well_degrades_nothing(server):
+    """A3"""
+    server.start_capability('Loader')
+    eventually(lambda: 'exit 0' in server.status('Loader').text)
+    server.wait_for('Loader', 'running')
+
+
+def test_a_node_that_did_not_start_is_seen(server):
+    """A3"""
+    server.start_capability('Partly')
+    assert server.wait_for('Partly', 'degraded').text == 'node /absent did not start'
+    assert server.running() == ['Partly']
+
+
 def test_restarts_are_counted_and_degrade_nothing(server):
     """A3"""
     server.start_capability('Respawns')

@@ -177,6 +177,29 @@ def test_a_reload_touches_nothing_that_runs(robot):
                 new.rmdir()
 
 
+def test_reloads_disturb_nobody(robot):
+    """A16: while four clients start and stop"""
+    import threading
+    with robot.server(WITHOUT) as server:
+        errors = []
+
+        def ask(name):
+            try:
+                for _ in range(5):
+                    assert server.start_capability(name) == 0
+                    assert server.stop_capability(name)
+            except Exception as error:
+                errors.append(error)
+        clients = [threading.Thread(target=ask, args=(name,))
+                   for name in ('Base', 'Camera', 'Good', 'Nothing')]
+        for client in clients:
+            client.start()
+        while any(client.is_alive() for client in clients):
+            server.call('reload_capabilities')
+        assert errors == []
+        assert server.states() == {}
+
+
 def test_a_reload_whose_defaults_are_at_fault_changes_nothing(robot):
     """A16"""
     with robot.server({**WITHOUT, 'defaults': {'robot/Two': 'robot/two_a'}}) as server:
@@ -215,6 +238,22 @@ def test_the_nodelet_manager_is_started_and_started_again(robot):
         assert server.status('Camera').pid == camera
         assert server.types('terminated').count(('terminated', '!!nodelet_manager')) == 1
         bond.shutdown()
+
+
+def test_a_nodelet_manager_that_is_lost_again_and_again_ends_the_server(robot):
+    """A14"""
+    with robot.server() as server:
+        killed = set()
+
+        def manager():
+            return next((pid for pid, command in server.processes().items()
+                         if 'nodelet_manager.launch' in command and pid not in killed), None)
+        for _ in range(3):
+            pid = eventually(manager)
+            killed.add(pid)
+            os.kill(pid, signal.SIGKILL)
+        assert server.process.wait(30) == 1
+        assert server.processes() == {}
 
 
 def test_without_its_nodelet_manager_it_may_end(robot):

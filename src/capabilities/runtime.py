@@ -23,25 +23,8 @@ from capabilities.status import status_entries
 from rocon_uri.sources.wording import quoted
 
 if TYPE_CHECKING:
-    from typing import Protocol
-
+    from capabilities.audience import Audience
     from capabilities.launch import Report
-    from capabilities.status import StatusEntry
-
-    class Audience(Protocol):
-        """Who is told, under the lock, and therefore must not wait for anything."""
-
-        def told(self, event: str, capability: str, provider: str, pid: int) -> None:
-            """Something was ``launched``, is being ``stopped``, or has ``terminated``."""
-
-        def status(self, entries: List[StatusEntry]) -> None:
-            """The status is now this."""
-
-        def must_end(self, exit_status: int) -> None:
-            """The server is to end with this status."""
-
-        def error(self, text: str) -> None:
-            """Something is to be logged as an error."""
 
 __all__ = ['Runtime']
 

@@ -12,9 +12,7 @@ import logging
 import os
 import signal
 import sys
-import threading
-import time
-from typing import Callable, List, Optional, Sequence
+from typing import List, Optional, Sequence
 
 import rosgraph
 import rospy
@@ -24,21 +22,15 @@ from capabilities.catalogue import Catalogue, catalogue_of, load_specs, read_cat
 from capabilities.instances import (
     USER_SERVICE_REASON, CapabilityInstance, get_reverse_depends)
 from capabilities.launch_manager import LaunchManager
-from capabilities.messages import (
-    DiagnosticArray, diagnostics_message, event_message, ready_message, status_message)
-from capabilities.msg import CapabilityEvent, CapabilityStatuses
-from capabilities.outbox import Outbox
 from capabilities.parameters import InvalidConfiguration, read_parameters
 from capabilities.processes import ServerRun, end_leftovers
+from capabilities.publications import Publications
 from capabilities.runtime import Runtime
 from capabilities.services import Services
 from capabilities.spec_index import SpecIndex
-from capabilities.status import StatusEntry
 
 __all__ = ['USER_SERVICE_REASON', 'CapabilityInstance', 'CapabilityServer', 'create_parser',
            'get_reverse_depends', 'main']
-
-Publish = Callable[[CapabilityEvent], None]
 
 _BAD_CONFIGURATION = 255
 
@@ -64,18 +56,12 @@ class CapabilityServer:
         self.__catalogue: Optional[Catalogue] = None
         self.__runtime: Optional[Runtime] = None
         self.__bonds: Optional[Bonds] = None
-        self.__outbox = Outbox()
-        self.__ready = False
-        self.__entries: List[StatusEntry] = []
-        self.__published: Optional[CapabilityStatuses] = None
+        self.__publications = Publications(self.__name, self.must_end)
         self.__exit_status: Optional[int] = None
         self.__has_started = False      # anything that would have to be ended
-        self.__has_ended = threading.Event()
+        self.__has_ended = False
         # A signal handler may write to a pipe; it must not touch what the main thread may hold.
         self.__wake_up_read, self.__wake_up = os.pipe()
-        self.__events = rospy.Publisher('~events', CapabilityEvent, _Greeting(self.__greeting),
-                                        queue_size=1000)
-        self.__status = rospy.Publisher('~status', CapabilityStatuses, latch=True, queue_size=10)
 
     def spin(self) -> int:
         """
@@ -107,34 +93,17 @@ class CapabilityServer:
 
     def shutdown(self) -> None:
         """End all that was started, and wait for that."""
-        if self.__has_ended.is_set():
+        if self.__has_ended:
             return
         if self.__runtime is not None:
             self.__runtime.end()
         if self.__bonds is not None:
             self.__bonds.end()
-        self.__has_ended.set()
-        self.__outbox.close(2.0)
-        _flush(self.__events, self.__status)
+        self.__publications.close()
+        self.__has_ended = True
 
-    def handle_capability_events(self, event: CapabilityEvent) -> None:
+    def handle_capability_events(self, event: object) -> None:
         """Do nothing: what the server knows it does not know from messages."""
-
-    # the audience of the runtime
-
-    def told(self, event: str, capability: str, provider: str, pid: int) -> None:
-        """Publish an event."""
-        message = event_message(event, capability, provider, pid, time.time())
-        self.__outbox.put(lambda: self.__events.publish(message))
-
-    def status(self, entries: List[StatusEntry]) -> None:
-        """Publish the status, unless it has changed again before it comes to that."""
-        self.__entries = entries
-        self.__outbox.put(self.__publish_status)
-
-    def error(self, text: str) -> None:
-        """Log an error."""
-        self.__outbox.put(lambda: _logger.error('%s', text))
 
     # how it serves
 
@@ -161,13 +130,15 @@ class CapabilityServer:
 
     def __serve(self) -> None:
         parameters = self.__parameters
+        publications = self.__publications
         assert self.__catalogue is not None
-        runtime = self.__runtime = Runtime(self, self.__catalogue, parameters.keep_dependents,
-                                           parameters.ends_without_nodelet_manager)
-        self.__bonds = Bonds(rospy.resolve_name('~bonds'), runtime.bond_broken, self.__outbox.put)
-        services = Services(runtime, self.__bonds, self.__status_message, self.__reload)
+        runtime = self.__runtime = Runtime(
+            publications, self.__catalogue, parameters.keep_dependents,
+            parameters.ends_without_nodelet_manager)
+        self.__bonds = Bonds(rospy.resolve_name('~bonds'), runtime.bond_broken, publications.later)
+        services = Services(runtime, self.__bonds, publications.status_message, self.__reload)
         services.advertise_status()
-        self.status([])
+        publications.status([])
         _warn_of_other_servers(self.__name)
         run = ServerRun.new(self.__name, rosgraph.get_master_uri())
         end_leftovers(run, _logger.warning)
@@ -178,61 +149,14 @@ class CapabilityServer:
             screen=parameters.use_screen, nodelet_manager_name=parameters.nodelet_manager_name,
             listener=runtime, run=run, nodelet_manager=parameters.nodelet_manager)
         services.advertise()
-        self.__ready = True
-        self.__outbox.put(lambda: self.__events.publish(ready_message()))
-        self.status(self.__entries)
+        publications.ready()
         _logger.info('capability server ready')
-        if DiagnosticArray is not None:
-            threading.Thread(target=self.__diagnose, name='diagnostics', daemon=True).start()
         if self.__exit_status is None:
             runtime.autostart(parameters.autostart)
         os.read(self.__wake_up_read, 1)
 
     def __reload(self) -> Catalogue:
         return read_catalogue(self.__package_paths, self.__parameters)
-
-    def __greeting(self) -> Optional[CapabilityEvent]:
-        """What somebody is told who has just subscribed to the events."""
-        return ready_message() if self.__ready else None
-
-    def __status_message(self) -> CapabilityStatuses:
-        return status_message(self.__entries, self.__name, self.__ready, time.time())
-
-    def __publish_status(self) -> None:
-        message = self.__status_message()
-        published = self.__published
-        if published is None or (message.ready, message.capabilities) != (
-                published.ready, published.capabilities):
-            self.__published = message
-            self.__status.publish(message)
-
-    def __diagnose(self) -> None:
-        publisher = rospy.Publisher('/diagnostics', DiagnosticArray, queue_size=10)
-        while not self.__has_ended.wait(1.0):
-            publisher.publish(diagnostics_message(self.__entries, self.__name, time.time()))
-
-
-class _Greeting(rospy.SubscribeListener):   # type: ignore[misc]
-    """Tells each new subscriber of a topic, and no other, what those before it were told."""
-
-    def __init__(self, message: Callable[[], Optional[CapabilityEvent]]) -> None:
-        super().__init__()
-        self._message = message
-
-    def peer_subscribe(self, topic_name: str, topic_publish: Publish,
-                       peer_publish: Publish) -> None:
-        message = self._message()
-        if message is not None:
-            peer_publish(message)
-
-
-def _flush(*publishers: rospy.Publisher) -> None:
-    """Wait, a second at most, until what was published has been handed to the system."""
-    deadline = time.monotonic() + 1.0
-    for publisher in publishers:
-        for connection in list(getattr(publisher.impl, 'connections', None) or ()):
-            while getattr(connection, '_queue', None) and time.monotonic() < deadline:
-                time.sleep(0.01)
 
 
 def _warn_of_other_servers(name: str) -> None:
