@@ -338,11 +338,11 @@ class TestSpecsThatAreLeftOut:
 
     @pytest.mark.parametrize('spec, text', [
         (provider('camera', 'good_package/Lazer'),
-         "4:13: provider 'bad_package/camera' implements 'good_package/Lazer', which is no "
-         "interface that any package exports (did you mean 'good_package/Laser'?)"),
+         "4:13: provider 'bad_package/camera' implements 'good_package/Lazer', which is "
+         "not an interface that any package exports (did you mean 'good_package/Laser'?)"),
         (semantic_interface('Front', 'good_package/Nothing_like_it'),
          "4:12: semantic interface 'bad_package/Front' redefines 'good_package/Nothing_like_it', "
-         'which is no interface that any package exports'),
+         'which is not an interface that any package exports'),
     ])
     def test_an_interface_that_is_missing(self, tmp_path: Path, spec: Tuple[str, str, str],
                                           text: str) -> None:

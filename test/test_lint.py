@@ -320,7 +320,7 @@ def test_a_provider_of_nothing_and_two_specs_of_one_name_are_errors(tmp_path, mo
         "interfaces/Other.yaml:1:7: error: 'ours/Camera' is the name of an interface already, in "
         + quoted_path(str(tmp_path / 'ours/interfaces/Camera.yaml')),
         "providers/usb_camera.yaml:4:13: error: provider 'ours/usb_camera' implements "
-        "'ours/Camrea', which is no interface that any package exports "
+        "'ours/Camrea', which is not an interface that any package exports "
         "(did you mean 'ours/Camera'?)"]
 
 

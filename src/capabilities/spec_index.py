@@ -205,8 +205,8 @@ class SpecIndex:
         redefined = semantic_interface.redefines
         if redefined not in self._interfaces:
             raise InterfaceNameNotFoundException(
-                'semantic interface %s redefines %s, which is no interface that any package exports'
-                % (quoted(name), quoted(redefined)),
+                'semantic interface %s redefines %s, which is not an interface that any package '
+                'exports' % (quoted(name), quoted(redefined)),
                 str(file_path), *_position(semantic_interface, 'redefines'),
                 name, package_name, semantic_interface.spec_type, redefined,
                 lambda: self.interface_names)
@@ -230,7 +230,7 @@ class SpecIndex:
         implemented = provider.implements
         if implemented not in self._interfaces and implemented not in self._semantic_interfaces:
             raise InterfaceNameNotFoundException(
-                'provider %s implements %s, which is no interface that any package exports'
+                'provider %s implements %s, which is not an interface that any package exports'
                 % (quoted(name), quoted(implemented)),
                 str(file_path), *_position(provider, 'implements'),
                 name, package_name, provider.spec_type, implemented,

@@ -1,9 +1,9 @@
 """
 What the three kinds of capability specs share: names, errors, and what every spec has.
 
-A spec that cannot be used is refused with an `InvalidSpec` that says where. What is odd and does
-no harm (a key that nobody knows, a repeated description) is logged to ``capabilities.specs``, and
-kept in the spec's ``warnings``.
+A spec that cannot be used is refused with an `InvalidSpec`, which has the place. What is odd and
+does no harm (an unknown key, a duplicate description) is logged to ``capabilities.specs``, and kept
+in the spec's ``warnings``.
 """
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class InvalidSpec(LocatedError, ValueError):
 
     :param str problem: what is wrong, without the place
     :param str file_name: where the spec is from
-    :param int line: where in it, counted from 1; ``None`` where it was no text
+    :param int line: where in it, counted from 1; ``None`` if it is not from a text
     :param int column: counted from 1, or ``None``
 
     The attributes have the names of the parameters.
@@ -54,7 +54,7 @@ class SpecWarning(Located):
     problem: str
     #: where the spec is from
     file_name: str
-    #: where in it, counted from 1; None where it was no text
+    #: where in it, counted from 1; None if it is not from a text
     line: Optional[int] = None
     #: counted from 1, or None
     column: Optional[int] = None
@@ -107,7 +107,7 @@ def validate_spec_name(name: str) -> SpecName:
 
 def split_spec_name(name: str) -> Tuple[str, str]:
     """
-    The package and the name that the name of a spec is made of.
+    The two parts of the name of a spec: the package, and the name within it.
 
     :param str name: ``package/name``
     :returns: (str, str)
@@ -122,15 +122,15 @@ def split_spec_name(name: str) -> Tuple[str, str]:
 
 class CapabilitySpec:
     """
-    What every spec has. Its attributes can be set; equal specs say the same in the same words.
+    What every spec has. Its attributes can be set. Specs are equal if their `to_dict` is.
 
     - ``name`` (str): as in the file; ``package/name`` once it is indexed
     - ``spec_type`` (str): ``'interface'``, ``'provider'`` or ``'semantic_interface'``
     - ``spec_version`` (int): 1
     - ``description`` (str): ``'No description given.'`` if there is none
     - ``file_name`` (str or None): where it was read from
-    - ``source`` (dict or None): what it was read from; a `rocon_uri.yaml_source.YamlMapping`, which
-      knows its lines, if that was a text
+    - ``source`` (dict or None): the data that it was read from; if those are from a text, a
+      `rocon_uri.sources.yaml_data.YamlMapping`, which knows its lines
     - ``warnings`` (tuple of `SpecWarning`): what was odd in it
     """
 
@@ -150,8 +150,8 @@ class CapabilitySpec:
 
         :returns: dict, from which ``..._from_dict`` makes an equal spec
         """
-        head: Dict[str, object] = {'name': str(self.name), 'spec_version': self.spec_version,
-                'spec_type': self.spec_type}
+        head: Dict[str, object] = {
+            'name': str(self.name), 'spec_version': self.spec_version, 'spec_type': self.spec_type}
         if self.description != NO_DESCRIPTION:
             head['description'] = str(self.description)
         return head

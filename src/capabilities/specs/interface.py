@@ -10,7 +10,7 @@ camera/camera_info sensor_msgs/CameraInfo No description given.
 >>> list(camera.services), camera.required_services, camera.actions
 (['camera/set_info'], {}, {})
 
-What cannot be an interface is refused with the place and the reason:
+A spec that is not an interface is refused, with the place and the reason:
 
 >>> capability_interface_from_string('''
 ... name: RGBCamera
@@ -55,9 +55,9 @@ class CapabilityInterface(Interface, CapabilitySpec):
     :param int spec_version: the version of the specification, 1
     :param str description: free text; ``None`` gives ``'No description given.'``
 
-    Beside the attributes that every spec has: ``default_provider`` (str), the name of a provider,
-    ``'unknown'`` until it is set. It says how a robot is set up, not what the interface is: it is
-    in no file, and makes no difference to ``==``.
+    Beside the attributes of every spec it has ``default_provider`` (str), the name of a provider,
+    ``'unknown'`` until it is set. That describes the robot, not the interface: no file has it, and
+    ``==`` does not compare it.
 
     >>> CapabilityInterface('RGBCamera', 1).default_provider
     'unknown'
@@ -72,7 +72,7 @@ class CapabilityInterface(Interface, CapabilitySpec):
 
     @property
     def interface(self) -> Interface:
-        """What the interface is made of, which is itself."""
+        """The interface itself, which is its own content."""
         return self
 
     def to_dict(self) -> Dict[str, object]:

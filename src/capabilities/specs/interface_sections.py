@@ -13,7 +13,7 @@ __all__ = ['GROUPINGS', 'SECTIONS', 'Interface', 'InterfaceElement']
 #: the sections whose elements have a type, with the kind of their elements
 SECTIONS = {'topics': 'topic', 'services': 'service', 'actions': 'action',
             'parameters': 'parameter'}
-#: what may be said of the elements of a section
+#: the groups that the elements of a section may be in
 GROUPINGS = ('requires', 'provides')
 
 _ELEMENT_KINDS = (*SECTIONS.values(), 'dynamic_parameter')
@@ -28,7 +28,7 @@ class InterfaceElement:
         ``'dynamic_parameter'``
     :param str element_type: ``package/Type``, or the type of a parameter; ``None`` if there is none
     :param str description: free text; ``None`` gives ``'No description given.'``
-    :raises ValueError: if the kind is another
+    :raises ValueError: if the kind is none of these
 
     The attributes are ``name``, ``kind``, ``type`` (and ``element_type``) and ``description``.
 
@@ -56,11 +56,11 @@ class InterfaceElement:
 
 class Interface:
     """
-    What an interface is made of.
+    The content of an interface.
 
-    Topics, services, actions and parameters are required or provided, or neither is said; that is
-    for people, nothing depends on it. What is returned are new containers, in the order in which
-    the elements were added.
+    A topic, service, action or parameter may be in the grouping ``requires`` or ``provides``. That
+    is information for people; nothing depends on it. Each property returns a new container, in the
+    order in which the elements were added.
 
     >>> interface = Interface()
     >>> interface.add_topic('scan', InterfaceElement('scan', 'topic', 'sensor_msgs/LaserScan'),
@@ -148,7 +148,7 @@ class Interface:
         :param InterfaceElement interface_element: what it is
         :param str grouping: ``'requires'``, ``'provides'`` or ``None``
         :raises ValueError: if the grouping is another; or if it is ``None`` and the name is that
-            of a grouping, which a file could not tell apart
+            of a grouping, since a file cannot express that
         :raises RuntimeError: if the interface has a topic of that name
         """
         self.add_element('topics', topic_name, interface_element, grouping)
@@ -203,7 +203,7 @@ class Interface:
 
     def elements(self) -> Iterator[Tuple[str, str, InterfaceElement, Optional[str]]]:
         """
-        Everything that has a type.
+        All elements that have a type.
 
         :returns: iterator of (section, name, element, grouping), as ``('topics', 'scan',
             <InterfaceElement>, 'provides')``

@@ -1,5 +1,5 @@
 """
-Capability providers: what runs a capability interface, and what it needs for that.
+Capability providers: what implements a capability interface, and what that depends on.
 
 >>> from capabilities.specs.provider import capability_provider_from_file_path
 >>> path = 'test/unit/specs/providers/navigation_nav_stack.yaml'
@@ -85,8 +85,8 @@ class CapabilityProvider(RemappingSpec):
     :raises ValueError: if there are remappings of another kind
     :raises RuntimeError: if a name is remapped to two others
 
-    The attributes of the parameters' names can be set, those of every spec too; but
-    ``remappings`` is a dict of all kinds together, and a copy.
+    The attributes have the names of the parameters and can be set, like those of every spec; but
+    ``remappings`` is a copy, a dict of all kinds together.
 
     >>> CapabilityProvider('navigation', 1, 'navigation/Navigation').dependencies
     {}
@@ -106,7 +106,7 @@ class CapabilityProvider(RemappingSpec):
 
     @property
     def dependencies(self) -> Dict[SpecName, DependsOnRelationship]:
-        """What it depends on, by the name of the interface: a new dict."""
+        """Its dependencies by the name of the interface: a new dict."""
         return dict(self._dependencies)
 
     def depends_on(self, capability_name: str) -> bool:

@@ -1,5 +1,5 @@
 """
-Remappings: the ROS names of an interface, and what they are called instead.
+Remappings: new names for the ROS names of an interface.
 
 Providers and semantic interfaces have them, by kind:
 
@@ -25,7 +25,7 @@ class RemappingSpec(CapabilitySpec):
     """
     A spec with remappings: a provider, or a semantic interface.
 
-    A name has one new name, whatever kinds it is remapped in.
+    A name has only one new name, even if it is remapped in several kinds.
     """
 
     def __init__(self, name: str, spec_version: int, description: Optional[str],
@@ -41,7 +41,7 @@ class RemappingSpec(CapabilitySpec):
 
     @property
     def remappings(self) -> Dict[str, str]:
-        """The new name by the name: a new dict, in the order of the file."""
+        """The new names by the old ones: a new dict, in the order of the file."""
         return dict(self._remappings)
 
     @property
@@ -57,7 +57,7 @@ class RemappingSpec(CapabilitySpec):
         :param str kind: ``'topics'``, ``'services'``, ``'actions'`` or ``'parameters'``
         :param str name: a ROS name of the interface
         :param str new_name: what it is called instead
-        :raises ValueError: if the kind is another
+        :raises ValueError: if the kind is none of these
         :raises RuntimeError: if the name is remapped to something else
         """
         _check_kind(kind)
@@ -66,7 +66,7 @@ class RemappingSpec(CapabilitySpec):
         self._remappings_by_type[kind][name] = new_name
 
     def _remappings_to_dict(self) -> Dict[str, object]:
-        """The remappings as a part of what ``to_dict`` gives; no part if there are none."""
+        """The part of ``to_dict`` for the remappings; empty if there are none."""
         remappings = {
             kind: {str(name): str(new_name) for name, new_name in new_names.items()}
             for kind, new_names in self._remappings_by_type.items() if new_names}
@@ -82,7 +82,7 @@ def _check_kind(kind: str) -> None:
 
 def read_remappings(reading: SpecReading, spec: RemappingSpec) -> None:
     """
-    Add the remappings of the spec that is read.
+    Add the remappings that a spec has in its file.
 
     :param reading: `capabilities.specs._reading.SpecReading`
     :param spec: the spec to add them to

@@ -9,7 +9,7 @@ Semantic capability interfaces: an interface with a meaning of its own, and new 
 >>> front_camera.remappings['camera/image_raw']
 'front_camera/image_raw'
 
-`SemanticCapabilityInterface.resolve` answers what a client of it sees:
+`SemanticCapabilityInterface.resolve` gives the interface that a client of it sees:
 
 >>> from capabilities.specs.interface import capability_interface_from_file_path
 >>> camera = capability_interface_from_file_path('test/unit/specs/interfaces/RGBCamera.yaml')
@@ -51,8 +51,8 @@ class SemanticCapabilityInterface(RemappingSpec):
     :raises ValueError: if there are remappings of another kind
     :raises RuntimeError: if a name is remapped to two others
 
-    The attributes of the parameters' names can be set, those of every spec too; but
-    ``remappings`` is a dict of all kinds together, and a copy. ``default_provider`` (str) is that
+    The attributes have the names of the parameters and can be set, like those of every spec; but
+    ``remappings`` is a copy, a dict of all kinds together. ``default_provider`` (str) is that
     of `capabilities.specs.interface.CapabilityInterface`.
 
     >>> SemanticCapabilityInterface('Left', 'a_package/RGBCamera', 1).remappings
@@ -102,7 +102,7 @@ class SemanticCapabilityInterface(RemappingSpec):
             renamed = InterfaceElement(new_name, element.kind, element.type, element.description)
             try:
                 resolved.add_element(section, new_name, renamed, grouping)
-            except ValueError as error:     # it is called as a grouping is, and in none
+            except ValueError as error:     # the new name is that of a grouping
                 raise self._error(section, [name], str(error)) from None
         for dynamic_parameter in interface.dynamic_parameters:
             resolved.add_dynamic_parameter(dynamic_parameter)
@@ -142,7 +142,7 @@ class SemanticCapabilityInterface(RemappingSpec):
                     raise self._error(section, [name], problem)
 
     def _error(self, section: str, names: Sequence[str], problem: str) -> InvalidSemanticInterface:
-        """The error of these names; it is where one is remapped, else at the namespace."""
+        """The error of these names: at the first that is remapped, else at the namespace."""
         source = self.source or {}
         new_names = (source.get('remappings') or {}).get(section) or {}
         place = next((key_place(new_names, name) for name in names if name in new_names),

@@ -50,7 +50,7 @@ GROUPS_OF_REMAPPINGS = ('requires', 'provides')
 
 class InvalidRapp(InvalidSpec):
     """
-    A rapp that cannot be used: a file that is not one, a parent that is not there.
+    A rapp that cannot be used: its file is not that of a rapp, or its parent does not exist.
 
     Parameters and attributes are those of `capabilities.specs.common.InvalidSpec`.
 
@@ -119,12 +119,12 @@ class Rapp(NamedTuple):
 
     @property
     def is_implementation(self) -> bool:
-        """Can it be started on some robot? Otherwise it is virtual, a parent only."""
+        """Can some robot run it? If not, it is virtual: only a parent of others."""
         return self.compatibility is not None and self.launch is not None
 
     @property
     def is_ancestor(self) -> bool:
-        """Is it without a parent?"""
+        """Does it have no parent?"""
         return self.parent_name is None
 
     def inheriting(self, parent: Rapp) -> Rapp:
@@ -149,7 +149,7 @@ class Rapp(NamedTuple):
         Where in its file the value of a key begins.
 
         :param str key: one of `KEYS`
-        :returns: (int, int), line and column from 1; (None, None) for what is not in the file
+        :returns: (int, int), line and column from 1; (None, None) if its file does not have the key
 
         >>> rapp_from_string('launch: dance.launch', 'ours/dance').position('launch')
         (1, 9)

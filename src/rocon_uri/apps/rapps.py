@@ -1,11 +1,11 @@
 """
 Rapps (robot apps): those that packages export, and what they inherit from their parents.
 
-A package exports a rapp with the path of its file, relative to the package::
+A package exports a rapp by the path of its file, relative to the package::
 
     <export><rocon_app>rapps/dance/dance.rapp</rocon_app></export>
 
-Its name is that of the package and of the file, ``our_rapps/dance``.
+Its name consists of those of the package and the file: ``our_rapps/dance``.
 
 >>> from capabilities.discovery import package_index_from_package_path
 >>> packages = package_index_from_package_path(['examples/workspace'])
@@ -84,7 +84,7 @@ def rapps_from_rapp_file_index(
         rapp_file_index: Mapping[str, Iterable[str]],
         ) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
     """
-    The rapps in some files, with what they say themselves.
+    The rapps in some files, without what they inherit.
 
     :param rapp_file_index: as `rapp_file_index_from_package_index` returns it
     :returns: (dict of `Rapp` by name, list of `InvalidRapp`); of several rapps of one name, the
@@ -150,7 +150,7 @@ def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[Inval
 def _missing_parent_error(rapp: Rapp, by_name: Mapping[str, Rapp]) -> InvalidRapp:
     parent_name = rapp.parent_name or ''
     package, _, own_name = parent_name.partition('/')
-    near = near_misses(parent_name, [     # of all names, there may be too many
+    near = near_misses(parent_name, [     # not all names, which may be very many
         name for name in by_name
         if name.startswith(package + '/') or name.endswith('/' + own_name)])
     return InvalidRapp('parent_name %s does not exist or cannot be read%s' % (

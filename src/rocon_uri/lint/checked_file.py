@@ -1,4 +1,4 @@
-"""One file that is checked: what is found in it, and the checks that files of all kinds share."""
+"""One file that is checked, its findings, and the checks that all kinds of files share."""
 from __future__ import annotations
 
 import os
@@ -131,7 +131,7 @@ class CheckedFile(Reading):
         if name in known:
             return True
         package, _, own_name = name.partition('/')
-        alike = (other for other in known     # of all names, there may be too many
+        alike = (other for other in known     # not all names, which may be very many
                  if other.startswith(package + '/') or other.endswith('/' + own_name))
         self.error('%s %s does not exist%s' % (
             what, quoted(name), self._suggestion(name, alike)), place)

@@ -8,7 +8,7 @@ from rocon_uri.sources.located import Located
 
 __all__ = ['ERROR', 'WARNING', 'Finding']
 
-#: It will not work, or not as it says.
+#: It does not work, or not as it says.
 ERROR = 'error'
 #: It works, but is probably not what was meant.
 WARNING = 'warning'

@@ -1,5 +1,5 @@
 """
-What can be wrong in an ``.interactions`` file: what people can do with a robot, from which screens.
+Checks ``.interactions`` files, which say what people can do with a robot, and on which devices.
 
 No export names these files, and they have several forms: a list of interactions; a mapping with
 such lists as ``interactions`` and ``pairings``; a list of groups, each with such lists by these or
@@ -100,11 +100,11 @@ def _entries(data: object, kind: str, file: CheckedFile) -> Iterator[Tuple[str, 
                               group.key_place(key))
                 yield from _entries(below, _LISTS.get(key, kind), file)
             elif key in _LISTS:
-                group.sequence(key)     # which it is not
+                group.sequence(key)     # refuses it
 
 
 def _is_group(item: Dict[str, object]) -> bool:
-    """Does it hold interactions, and is none itself?"""
+    """Is it a group of interactions, and not an interaction itself?"""
     return any(key in item for key in _LISTS) or (
         not any(key in item for keys in _REQUIRED_KEYS.values() for key in keys)
         and any(isinstance(below, list) for below in item.values()))

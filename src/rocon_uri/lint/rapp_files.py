@@ -1,4 +1,4 @@
-"""What can be wrong in a ``.rapp`` file that can be read, and in the files that it names."""
+"""Checks ``.rapp`` files that can be read, and the files that they name."""
 from __future__ import annotations
 
 import os
@@ -30,8 +30,8 @@ def check_rapp(rapp: Rapp, package_folder: str, surroundings: Surroundings) -> L
     """
     file = CheckedFile(rapp.path, package_folder)
     if not is_rocon_app(rapp.name):
-        file.warn('no rocon URI can name rapp %s: package and file need ROS base names (a letter, '
-                  'then letters, digits and _)' % quoted(rapp.name))
+        file.warn('no rocon URI can name rapp %s: the names of package and file have to be ROS '
+                  'base names (a letter, then letters, digits and _)' % quoted(rapp.name))
     source = file.mapping(rapp.source, 'the rapp')
     source.warn_of_unknown(KEYS)
     if rapp.compatibility is not None:
@@ -79,7 +79,7 @@ def _check_required_capability(capability: CheckedMapping, file: CheckedFile,
 
 
 def _check_public_file(key: str, path: str, package_folder: str) -> List[Finding]:
-    """What is wrong with the public interface or the public parameters of a rapp."""
+    """The findings in the public interface or the public parameters of a rapp."""
     file = CheckedFile(path, package_folder)
     data = file.read()
     if data is not None:

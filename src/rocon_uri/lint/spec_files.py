@@ -1,4 +1,4 @@
-"""What can be wrong in a capability spec that can be read."""
+"""Checks capability specs that can be read."""
 from __future__ import annotations
 
 from typing import List, Union

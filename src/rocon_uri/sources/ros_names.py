@@ -1,8 +1,8 @@
 """
 The name checks of ``rosgraph.names`` and ``roslib.names``, without importing ROS.
 
-They answer as the originals do, except for letters outside ASCII: the originals let them
-through on Python 3, roscpp and these do not. There is no limit of length here.
+They answer as the originals do, except for letters outside ASCII: on Python 3 the originals accept
+them; roscpp and these do not. The length is not limited.
 """
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ _graph_name = re.compile(r'[~/A-Za-z][\w/]*', re.ASCII).fullmatch
 
 def is_legal_base_name(name: str | None) -> bool:
     """
-    Is this a name without a namespace, as of a robot: a letter, then letters, digits and ``_``?
+    Is this a name without a namespace, such as that of a robot: a letter, then letters, digits and
+    ``_``?
 
     :param str name: the name; ``None`` is not legal
     :returns: bool
@@ -30,10 +31,10 @@ def is_legal_base_name(name: str | None) -> bool:
 
 def is_legal_resource_name(name: str | None) -> bool:
     """
-    Is this a name of something in a package, as ``rocon_apps/teleop``?
+    Is this the name of something in a package, such as ``rocon_apps/teleop``?
 
-    Looser than what a rocon URI admits as its ``rocon_app``: ``a/b/c`` and ``a/`` pass, as they
-    do in ``roslib.names``.
+    It accepts more than a rocon URI accepts as its ``rocon_app``: ``a/b/c`` and ``a/`` too, as
+    ``roslib.names`` does.
 
     :param str name: the name; ``None`` is not legal
     :returns: bool
@@ -46,7 +47,7 @@ def is_legal_resource_name(name: str | None) -> bool:
 
 def is_legal_name(name: str | None) -> bool:
     """
-    Is this a name in the ROS graph, as of a topic: global, private, relative or empty?
+    Is this a name in the ROS graph, such as that of a topic: global, private, relative or empty?
 
     :param str name: the name; ``None`` is not legal
     :returns: bool

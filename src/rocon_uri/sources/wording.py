@@ -10,12 +10,12 @@ if TYPE_CHECKING:
 __all__ = ['did_you_mean', 'near_misses', 'printable', 'quoted', 'quoted_path', 'shown']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
-_NEAR_LENGTH = 64       # a longer text is nobody's typing error; bounds the cost of the search
+_NEAR_LENGTH = 64       # characters: a longer text is no typing error, and would take long
 
 
 def quoted(text: str) -> str:
     """
-    The text as an error shows it: in single quotes, on one line, shortened if it is long.
+    A text as an error shows it: in single quotes, on one line, and shortened if it is long.
 
     :param str text: anything
     :returns: str, printable and at most about 80 characters of the text
@@ -43,7 +43,7 @@ def quoted_path(path: str) -> str:
 
 def printable(text: str) -> str:
     """
-    The text on one line, with what cannot be shown there escaped.
+    A text on one line, in which characters that cannot be printed are escaped.
 
     :param str text: anything
     :returns: str
@@ -56,7 +56,7 @@ def printable(text: str) -> str:
 
 def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
     """
-    The candidates that somebody may have meant by this text, the likeliest first.
+    The candidates that somebody probably meant by a text, the likeliest first.
 
     :param str text: what was written
     :param candidates: iterable of str, what could have been written
@@ -67,7 +67,7 @@ def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
     """
     if len(text) > _NEAR_LENGTH:
         return []
-    import difflib      # here, since only an error that is looked at needs it
+    import difflib      # here, since only an error that is shown needs it
     by_lower = {candidate.lower(): candidate for candidate in sorted(candidates)}
     found = difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.7)
     return [by_lower[name] for name in found]
@@ -75,7 +75,7 @@ def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
 
 def did_you_mean(suggestions: Iterable[str]) -> str:
     """
-    The end of an error that knows what was probably meant.
+    The end of an error: what was probably meant.
 
     :param suggestions: iterable of str, the likeliest first
     :returns: str, empty if there are none

@@ -30,8 +30,8 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # Python 3.8 has no dict
     """
     A mapping read from YAML, in the order of the file: a ``dict`` that knows its positions.
 
-    Keys are ``str``, ``int``, ``float``, ``bool`` or ``None``. Positions are those of the reading;
-    a key that is put in later has none.
+    Keys are ``str``, ``int``, ``float``, ``bool`` or ``None``. A key that was not read but put in
+    later has no position.
     """
 
     __slots__ = ('_start', '_positions', 'repeated')
@@ -68,7 +68,7 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # Python 3.8 has no dict
 
     def value_position(self, key: object) -> Position:
         """
-        Where the value of the key begins; where an alias stands, if it is one.
+        Where the value of the key begins; if it is an alias, where that stands.
 
         :param key: a key of the mapping
         :returns: (int, int), line and column
@@ -83,7 +83,7 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # Python 3.8 has no dict
 
     def merge(self, sources: List[YamlMapping]) -> None:
         """
-        Put the keys of others before one's own, as a merge key does. One's own win.
+        Put the keys of other mappings before its own, as a merge key does. Its own win.
 
         :param sources: list of `YamlMapping`; a later one wins over an earlier one
         """
@@ -98,7 +98,7 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # Python 3.8 has no dict
 
 
 class YamlSequence(list):   # type: ignore[type-arg]
-    """A sequence read from YAML: a ``list`` that knows its positions, those of the reading."""
+    """A sequence read from YAML: a ``list`` that knows its positions."""
 
     __slots__ = ('_start', '_positions')
 
@@ -114,7 +114,7 @@ class YamlSequence(list):   # type: ignore[type-arg]
 
     def item_position(self, index: int) -> Position:
         """
-        Where an item begins; where an alias stands, if it is one.
+        Where an item begins; if it is an alias, where that stands.
 
         :param int index: which item
         :returns: (int, int), line and column

@@ -1,5 +1,5 @@
 """
-The events of PyYAML's parser into the data of `rocon_uri.sources.yaml_source`.
+Makes the data of `rocon_uri.sources.yaml_source` from the events of PyYAML's parser.
 
 It imports yaml, and is itself imported only when YAML is read.
 """
@@ -31,9 +31,9 @@ _unreadable_escape = re.compile('[\ud800-\udfff]').search
 
 class Reader:
     """
-    One reading of one text: the parser's events, turned into data as they come.
+    Reads one text: turns the parser's events into data as they come.
 
-    Nested collections are nested calls, so that the state of each is in plain local variables.
+    Nested collections are nested calls, so that the state of each is in local variables.
     """
 
     next_event: Callable[[], Event]     # of the parser
@@ -63,7 +63,7 @@ class Reader:
             return data
         except YamlError:
             raise
-        # Beside its own errors, the parser in Python raises what int() and chr() do.
+        # The parser in Python also raises the errors of int() and chr().
         except (yaml.YAMLError, ValueError, OverflowError) as error:
             self._check_what_was_read_ahead(error)
             raise self._parser_error(error) from error
@@ -156,7 +156,7 @@ class Reader:
         return value
 
     def _key(self, event: Event, depth: int) -> Scalar:
-        """The key that an alias is; a collection is none."""
+        """The key that an alias stands for; a collection cannot be one."""
         if event.__class__ is AliasEvent:
             key = self._alias(event, depth)
             if not isinstance(key, (YamlMapping, YamlSequence)):
@@ -164,12 +164,12 @@ class Reader:
         raise self._error('a collection cannot be a key, text is expected', event)
 
     def _check_other_keys(self, count: int, event: Event) -> None:
-        """Refuse more than a few numbers as keys: they can be chosen so that all have one hash."""
+        """Refuse many numbers as keys: they can be chosen so that all have the same hash."""
         if count > _MAX_OTHER_KEYS:
             raise self._error('more than %d keys that are not text' % _MAX_OTHER_KEYS, event)
 
     def _merged(self, value: Value, event: Event) -> List[YamlMapping]:
-        """The mappings that a merge key brings, the ones that win last."""
+        """The mappings that a merge key merges; those that win come last."""
         sources: List[Any] = value[::-1] if isinstance(value, YamlSequence) else [value]
         for source in sources:
             if not isinstance(source, YamlMapping):
@@ -179,13 +179,13 @@ class Reader:
         return sources
 
     def _open_anchor(self, event: Event) -> None:
-        """Note that a node has an anchor, before what it holds is read."""
+        """Note the anchor of a node, before its content is read."""
         if event.anchor in self.anchors:
             raise self._error('anchor %s is defined twice' % quoted('&' + event.anchor), event)
         self.anchors[event.anchor] = _UNFINISHED
 
     def _alias(self, event: Event, depth: int) -> Value:
-        """The data that an alias stands for, after making sure that it is not too much."""
+        """The data that an alias stands for, if that is not too much."""
         name = quoted('*' + event.anchor)
         if event.anchor not in self.anchors:
             raise self._error('alias %s has no anchor before it' % name, event)
@@ -196,7 +196,7 @@ class Reader:
         return data
 
     def _measure(self, data: Value, event: Event, depth: int) -> None:
-        """Count what an alias adds, and see that it is not nested too deep where it stands."""
+        """Count what an alias adds, and check how deep it is nested where it stands."""
         if isinstance(data, (YamlMapping, YamlSequence)):
             if depth == MAX_DEPTH:
                 raise self._error('nested deeper than %d' % MAX_DEPTH, event)
@@ -232,15 +232,15 @@ class Reader:
 
     def _check_what_was_read_ahead(self, error: Exception) -> None:
         """
-        Refuse what is wrong in the events that were still to come, if it was depth that ended them.
+        Refuse what is wrong before the place at which the parser gave up because of the depth.
 
-        libyaml reads ahead of its events and, from 0.2.6 on, gives up 1,000 deep.
+        libyaml reads ahead of its events and, from 0.2.6 on, gives up at a depth of 1,000.
         """
         if getattr(error, 'problem', None) == 'exceeded maximum nesting depth':
             Reader(self.text[:error.problem_mark.index], self.file_name).document()  # type: ignore
 
     def _parser_error(self, error: Exception) -> YamlError:
-        """What the parser has to say, on one line."""
+        """The error of the parser, on one line."""
         unreadable = _unreadable(self.text)
         mark = getattr(error, 'problem_mark', None) or getattr(error, 'context_mark', None)
         if mark is None and unreadable is not None:

@@ -1,4 +1,4 @@
-"""The types that YAML 1.1 gives to scalars, without quotes or with a tag of the core types."""
+"""The values that YAML 1.1 gives to scalars without quotes, or with a tag of a core type."""
 from __future__ import annotations
 
 import re
@@ -10,7 +10,7 @@ Scalar = Union[str, int, float, bool, None]
 
 CORE = 'tag:yaml.org,2002:'     # what the tags of the core types begin with
 
-_MAX_NUMBER_LENGTH = 256    # characters: converting long ones takes time that grows faster
+_MAX_NUMBER_LENGTH = 256    # characters: reading n digits takes time that grows with n squared
 _BOOLS = {form: value for words, value in (('yes true on', True), ('no false off', False))
           for word in words.split() for form in (word, word.capitalize(), word.upper())}
 _NULLS = dict.fromkeys(['', '~', 'null', 'Null', 'NULL'])
@@ -38,7 +38,7 @@ def plain(value: str) -> Scalar:
 
 
 def _to_int(value: str) -> int:
-    """The value of an integer as YAML 1.1 writes them."""
+    """The value of an integer in the notation of YAML 1.1."""
     if len(value) > _MAX_NUMBER_LENGTH or not _integer(value):
         raise ValueError
     digits = value.replace('_', '').lstrip('+-')
@@ -54,7 +54,7 @@ def _to_int(value: str) -> int:
 
 
 def _to_float(value: str) -> float:
-    """The value of a floating point number as YAML 1.1 writes them, or of an integer."""
+    """The value of a floating point number or an integer in the notation of YAML 1.1."""
     if _integer(value):
         return float(_to_int(value))
     if len(value) > _MAX_NUMBER_LENGTH or not _float(value):

@@ -1,5 +1,5 @@
 """
-Untrusted YAML (and JSON, a subset of it) into plain data that knows its lines.
+Reads untrusted YAML (and JSON, a subset of it) into plain data that knows its lines.
 
 ``load`` reads a text and ``load_file`` a file. What comes back is what ``yaml.safe_load`` gives,
 except that mappings are `YamlMapping`, a ``dict``, and sequences `YamlSequence`, a ``list``, which
@@ -11,8 +11,8 @@ also answer where in the text a key, a value or an item begins:
 >>> source['topics'].key_position('scan'), source['topics'].value_position('scan')
 ((2, 3), (2, 9))
 
-Positions are (line, column), both counted from 1. Whatever the text holds, it is read, or refused
-with one `YamlError` that says where:
+Positions are (line, column), both counted from 1. Any text is either read, or refused with one
+`YamlError` that says where:
 
 >>> load('topics: [', 'laser.yaml')
 Traceback (most recent call last):
@@ -20,40 +20,38 @@ Traceback (most recent call last):
 rocon_uri.sources.yaml_data.YamlError: laser.yaml:2:1: did not find expected node content while \
 parsing a flow node
 
-What a text may cost is bounded: 1 MiB of text, collections nested 100 deep, and 1 MiB that aliases
-and merges add. An alias gives the same object again, not a copy. The text is read from the parser's
-events, never composed or loaded: libyaml's composer overruns the stack on a few tens of thousands
-of ``[``.
+The cost of a text is bounded: it has at most 1 MiB, its collections are at most 100 deep, and its
+aliases and merges add at most 1 MiB. An alias gives the same object again, not a copy. The text is
+read from the parser's events, never composed or loaded: libyaml's composer overruns the stack on a
+few tens of thousands of ``[``.
 
 - Plain scalars have the types of YAML 1.1, as in ``yaml.safe_load`` (``yes``, ``0x1F``, ``1:30``),
-  but for dates and ``=``, which stay text. A number of over 256 characters is refused.
-- A tag makes nothing: those of the core types (``!!str``, ``!!int``, ...) are read, others refused.
+  except for dates and ``=``, which stay text. A number of over 256 characters is refused.
+- The tags of the core types (``!!str``, ``!!int``, ...) are read; others are refused.
 - Merge keys (``<<``) are read; a mapping's own keys win over merged ones, wherever they stand.
-- A repeated key is not an error here. The last one wins, and ``YamlMapping.repeated`` lists what
+- A duplicate key is not an error here. The last one wins, and ``YamlMapping.repeated`` lists what
   was lost; ``1``, ``1.0`` and ``true`` are one key, as in Python. A collection as key is refused,
   and so are more than 100 keys of one mapping that are not text.
-- One document; an empty text is ``None``.
+- There is one document; an empty text is ``None``.
 - Text is UTF-8, or UTF-16 with a byte order mark. A lone surrogate or a control character that
   is not escaped is refused.
 """
 from __future__ import annotations
 
+import errno
+import os
 import re
+import stat
+from os import PathLike
+from typing import Any, Union
 
 from rocon_uri.sources.yaml_data import (
     MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, end_position)
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from os import PathLike
-    from typing import Any, Tuple, Union
-
-    Position = Tuple[int, int]
-
 __all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'load',
            'load_file', 'read_file']
 
-_MAX_TAG_DIRECTIVES = 100   # libyaml compares each with all before it
+_MAX_TAG_DIRECTIVES = 100   # libyaml compares each one with all earlier ones
 
 _tag_directives = re.compile('(?:^|[\r\n\x85\u2028\u2029])%TAG').findall
 
@@ -72,7 +70,7 @@ def load(content: Union[str, bytes], file_name: str = '<string>') -> Any:
     """
     if len(content) > MAX_SIZE:
         raise YamlError('larger than 1 MiB, which is all that is read', file_name, 1, 1)
-    # Here, since it imports yaml, which who reads no YAML need not have.
+    # Here, since it imports yaml, which is not needed where no YAML is read.
     from rocon_uri.sources.yaml_events import Reader
     return Reader(_text(content, file_name), file_name).document()
 
@@ -94,19 +92,15 @@ def load_file(path: Union[str, PathLike[str]]) -> Any:
 
 def read_file(path: Union[str, PathLike[str]]) -> bytes:
     """
-    The content of a regular file, as far as `load` needs it to see that it is too large.
+    The content of a regular file, up to one byte more than `load` accepts.
 
     :param path: the file, str or path object
     :returns: bytes, at most one more than 1 MiB
-    :raises OSError: if it cannot be read; a directory, a FIFO and a device are not
+    :raises OSError: if it cannot be read, or is a directory, a FIFO or a device
 
     >>> read_file('test/unit/specs/interfaces/RGBCamera.yaml')[:9]
     b'%YAML 1.1'
     """
-    import errno
-    import os
-    import stat
-
     def opener(name: str, flags: int) -> int:
         # Without O_NONBLOCK, opening a FIFO waits for somebody to write to it.
         return os.open(name, flags | os.O_NONBLOCK | os.O_NOCTTY)
@@ -116,7 +110,7 @@ def read_file(path: Union[str, PathLike[str]]) -> bytes:
             status = os.fstat(file.fileno())
             if not stat.S_ISREG(status.st_mode):
                 raise OSError(errno.EINVAL, 'Not a regular file', str(path))
-            # The buffer for a read is as large as what is asked for, so that is not 1 MiB.
+            # A read allocates what it is asked for, so ask for the size of the file, not for 1 MiB.
             content = file.read(min(status.st_size, MAX_SIZE) + 1)
             if status.st_size < len(content) <= MAX_SIZE:   # it grows, or is one of /proc
                 content += file.read(MAX_SIZE + 1 - len(content))
@@ -126,7 +120,7 @@ def read_file(path: Union[str, PathLike[str]]) -> bytes:
 
 
 def _text(content: Union[str, bytes], file_name: str) -> str:
-    """The content as text that either parser takes as it is."""
+    """The content as text that both of PyYAML's parsers take as it is."""
     if isinstance(content, str):
         text = content
     else:
@@ -137,7 +131,7 @@ def _text(content: Union[str, bytes], file_name: str) -> str:
             before = content[:error.start].decode(encoding, 'replace')
             raise YamlError('not %s text: %s' % (encoding.upper(), error.reason), file_name,
                             *end_position(before)) from error
-    # Counting them anywhere first takes a fiftieth of the time, and is all that most texts need.
+    # Counting anywhere comes first: it takes a fiftieth of the time, and most texts need no more.
     if (text.count('%TAG') > _MAX_TAG_DIRECTIVES
             and len(_tag_directives(text)) > _MAX_TAG_DIRECTIVES):
         raise YamlError('more than %d %%TAG directives' % _MAX_TAG_DIRECTIVES, file_name, 1, 1)
