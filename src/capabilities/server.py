@@ -14,6 +14,7 @@ import signal
 import sys
 from typing import List, Optional, Sequence
 
+import capabilities.needs_ros  # noqa: F401
 import rosgraph
 import rospy
 
