@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from capabilities.specs.interface import CapabilityInterface
     from capabilities.specs.provider import CapabilityProvider
     from capabilities.specs.semantic_interface import SemanticCapabilityInterface
-    from rocon_uri.sources.located import Place
 
     Spec = Union[CapabilityInterface, SemanticCapabilityInterface, CapabilityProvider]
     S = TypeVar('S')
@@ -31,7 +30,18 @@ if TYPE_CHECKING:
 __all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'SpecIndex']
 
 
-class DuplicateNameException(LocatedError):
+class _RefusedSpec(LocatedError):
+    """A spec that cannot be indexed; the two exceptions below say why."""
+
+    def __init__(self, problem: str, file_name: str, line: Optional[int], column: Optional[int],
+                 spec_name: str, package: str, spec_type: str, *more: object) -> None:
+        super().__init__(problem, file_name, line, column, spec_name, package, spec_type, *more)
+        self.spec_name = spec_name
+        self.package = package
+        self.spec_type = spec_type
+
+
+class DuplicateNameException(_RefusedSpec):
     """
     A spec whose name is taken. Specs of different kinds cannot share a name either.
 
@@ -40,15 +50,8 @@ class DuplicateNameException(LocatedError):
     ``'semantic_interface'`` or ``'provider'``).
     """
 
-    def __init__(self, problem: str, file_name: str, line: Optional[int], column: Optional[int],
-                 spec_name: str, package: str, spec_type: str) -> None:
-        super().__init__(problem, file_name, line, column, spec_name, package, spec_type)
-        self.spec_name = spec_name
-        self.package = package
-        self.spec_type = spec_type
 
-
-class InterfaceNameNotFoundException(LocatedError):
+class InterfaceNameNotFoundException(_RefusedSpec):
     """
     A semantic interface or provider of an interface that is not there.
 
@@ -60,9 +63,6 @@ class InterfaceNameNotFoundException(LocatedError):
                  spec_name: str, package: str, spec_type: str, interface: str,
                  candidates: 'Iterable[str] | Callable[[], Iterable[str]]' = ()) -> None:
         super().__init__(problem, file_name, line, column, spec_name, package, spec_type, interface)
-        self.spec_name = spec_name
-        self.package = package
-        self.spec_type = spec_type
         self.interface = interface
         self._candidates = candidates
 
@@ -202,14 +202,9 @@ class SpecIndex:
             semantic interface cannot be redefined
         """
         name = self._free_name(semantic_interface, file_path, package_name)
-        redefined = semantic_interface.redefines
-        if redefined not in self._interfaces:
-            raise InterfaceNameNotFoundException(
-                'semantic interface %s redefines %s, which is not an interface that any package '
-                'exports' % (quoted(name), quoted(redefined)),
-                str(file_path), *_position(semantic_interface, 'redefines'),
-                name, package_name, semantic_interface.spec_type, redefined,
-                lambda: self.interface_names)
+        if semantic_interface.redefines not in self._interfaces:
+            raise _missing(name, semantic_interface, 'redefines', file_path,
+                           lambda: self.interface_names)
         semantic_interface.name = name
         self._semantic_interfaces[name] = semantic_interface, str(file_path)
 
@@ -229,12 +224,8 @@ class SpecIndex:
         name = self._free_name(provider, file_path, package_name)
         implemented = provider.implements
         if implemented not in self._interfaces and implemented not in self._semantic_interfaces:
-            raise InterfaceNameNotFoundException(
-                'provider %s implements %s, which is not an interface that any package exports'
-                % (quoted(name), quoted(implemented)),
-                str(file_path), *_position(provider, 'implements'),
-                name, package_name, provider.spec_type, implemented,
-                lambda: self.interface_names + self.semantic_interface_names)
+            raise _missing(name, provider, 'implements', file_path,
+                           lambda: self.interface_names + self.semantic_interface_names)
         provider.name = name
         self._providers[name] = provider, str(file_path)
         self._implemented[name] = implemented
@@ -271,9 +262,10 @@ class SpecIndex:
     def _free_name(self, spec: Spec, file_path: str, package_name: str) -> str:
         """The name to add a spec by, which it may have already: ``package/name``."""
         package, _, own_name = spec.name.rpartition('/')
+        place = value_place(spec.source, 'name')
         if package not in ('', package_name):
             raise InvalidSpec('name %s is not of package %s, which exports it' % (
-                quoted(spec.name), quoted(package_name)), str(file_path), *_position(spec, 'name'))
+                quoted(spec.name), quoted(package_name)), str(file_path), *place)
         name = '%s/%s' % (package_name, own_name)
         for kind, entries in (('an interface', self._interfaces),
                               ('a semantic interface', self._semantic_interfaces),
@@ -282,7 +274,7 @@ class SpecIndex:
                 raise DuplicateNameException(
                     '%s is the name of %s already, in %s' % (
                         quoted(name), kind, quoted_path(entries[name][1])),
-                    str(file_path), *_position(spec, 'name'), name, package_name, spec.spec_type)
+                    str(file_path), *place, name, package_name, spec.spec_type)
         return name
 
 
@@ -294,6 +286,12 @@ def _paths(entries: Entries[S]) -> Dict[str, str]:
     return {name: path for name, (_, path) in entries.items()}
 
 
-def _position(spec: Spec, key: str) -> Place:
-    """Where in its file a spec says this, if it was read from one."""
-    return value_place(spec.source, key)
+def _missing(name: str, spec: Spec, key: str, file_path: str,
+             candidates: Callable[[], Iterable[str]]) -> InterfaceNameNotFoundException:
+    """The error of a spec that redefines or implements an interface that does not exist."""
+    interface = getattr(spec, key)
+    problem = '%s %s %s %s, which is not an interface that any package exports' % (
+        spec.spec_type.replace('_', ' '), quoted(name), key, quoted(interface))
+    return InterfaceNameNotFoundException(
+        problem, str(file_path), *value_place(spec.source, key), name, name.partition('/')[0],
+        spec.spec_type, interface, candidates)

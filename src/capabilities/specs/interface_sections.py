@@ -54,6 +54,25 @@ class InterfaceElement:
         return self.type
 
 
+class _Elements:
+    """A property of an interface: the elements of a section, or those in one grouping of it."""
+
+    def __init__(self, section: str, grouping: Optional[str] = None) -> None:
+        self._section = section
+        self._grouping = grouping
+        self.__doc__ = 'The %s%s by name: a new dict of `InterfaceElement`.' % (
+            section, ' in the grouping ``%s``' % grouping if grouping else '')
+
+    def __get__(self, interface: Interface, owner: object = None) -> Dict[str, InterfaceElement]:
+        if interface is None:       # it is looked up in the class
+            return self
+        return {name: element for section, name, element, grouping in interface.elements()
+                if section == self._section and self._grouping in (None, grouping)}
+
+    def __set__(self, interface: Interface, elements: object) -> None:
+        raise AttributeError("can't set attribute")
+
+
 class Interface:
     """
     The content of an interface.
@@ -69,70 +88,23 @@ class Interface:
     (['scan'], [])
     """
 
+    topics = _Elements('topics')
+    required_topics = _Elements('topics', 'requires')
+    provided_topics = _Elements('topics', 'provides')
+    services = _Elements('services')
+    required_services = _Elements('services', 'requires')
+    provided_services = _Elements('services', 'provides')
+    actions = _Elements('actions')
+    required_actions = _Elements('actions', 'requires')
+    provided_actions = _Elements('actions', 'provides')
+    parameters = _Elements('parameters')
+    required_parameters = _Elements('parameters', 'requires')
+    provided_parameters = _Elements('parameters', 'provides')
+
     def __init__(self) -> None:
         self._elements: Dict[str, Dict[str, Tuple[InterfaceElement, Optional[str]]]] = {
             section: {} for section in SECTIONS}
         self._dynamic_parameters: Dict[str, None] = {}     # a set that keeps the order
-
-    @property
-    def topics(self) -> Dict[str, InterfaceElement]:
-        """All topics by name: a new dict of `InterfaceElement`."""
-        return self._section('topics')
-
-    @property
-    def required_topics(self) -> Dict[str, InterfaceElement]:
-        """The topics in the grouping ``requires``."""
-        return self._section('topics', 'requires')
-
-    @property
-    def provided_topics(self) -> Dict[str, InterfaceElement]:
-        """The topics in the grouping ``provides``."""
-        return self._section('topics', 'provides')
-
-    @property
-    def services(self) -> Dict[str, InterfaceElement]:
-        """All services by name: a new dict of `InterfaceElement`."""
-        return self._section('services')
-
-    @property
-    def required_services(self) -> Dict[str, InterfaceElement]:
-        """The services in the grouping ``requires``."""
-        return self._section('services', 'requires')
-
-    @property
-    def provided_services(self) -> Dict[str, InterfaceElement]:
-        """The services in the grouping ``provides``."""
-        return self._section('services', 'provides')
-
-    @property
-    def actions(self) -> Dict[str, InterfaceElement]:
-        """All actions by name: a new dict of `InterfaceElement`."""
-        return self._section('actions')
-
-    @property
-    def required_actions(self) -> Dict[str, InterfaceElement]:
-        """The actions in the grouping ``requires``."""
-        return self._section('actions', 'requires')
-
-    @property
-    def provided_actions(self) -> Dict[str, InterfaceElement]:
-        """The actions in the grouping ``provides``."""
-        return self._section('actions', 'provides')
-
-    @property
-    def parameters(self) -> Dict[str, InterfaceElement]:
-        """All parameters by name: a new dict of `InterfaceElement`."""
-        return self._section('parameters')
-
-    @property
-    def required_parameters(self) -> Dict[str, InterfaceElement]:
-        """The parameters in the grouping ``requires``."""
-        return self._section('parameters', 'requires')
-
-    @property
-    def provided_parameters(self) -> Dict[str, InterfaceElement]:
-        """The parameters in the grouping ``provides``."""
-        return self._section('parameters', 'provides')
 
     @property
     def dynamic_parameters(self) -> List[str]:
@@ -211,8 +183,3 @@ class Interface:
         for section, elements in self._elements.items():
             for name, (element, grouping) in elements.items():
                 yield section, name, element, grouping
-
-    def _section(self, section: str, grouping: Optional[str] = None) -> Dict[str, InterfaceElement]:
-        """The elements of a section, or those in one grouping of it."""
-        return {name: element for name, (element, group) in self._elements[section].items()
-                if grouping is None or group == grouping}
