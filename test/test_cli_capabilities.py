@@ -54,6 +54,7 @@ def test_a_capability_is_planned_started_shown_and_stopped(server, capabilities)
     assert capabilities('plan', 'robot/Nav')[1] == 'runs   robot/Nav by robot/nav\n'
     assert capabilities('stop', 'robot/Base') == (0, 'robot/Base: stopped\n', '')
     assert server.running() == []
+    assert capabilities('status') == (0, 'nothing runs\n', '')
     status, out, err = capabilities('stop', 'robot/Base')
     assert (status, out) == (1, '') and "No Capability 'robot/Base' running" in err
 

@@ -61,6 +61,9 @@ def as_json(capability: Any) -> Dict[str, Any]:
 
 
 def _show(capabilities: List[Dict[str, Any]]) -> None:
+    if not capabilities:
+        print('nothing runs')
+        return
     paint = painter()
     width = max([len(c['capability']) for c in capabilities] + [len('capability')])
     rows = [('capability', 'state', 'since', 'pid')]

@@ -1,0 +1,112 @@
+"""What examples/demo shows, once the package is built and its setup.bash was sourced."""
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+USER = '''
+import rospy
+from capabilities.client import CapabilitiesClient
+rospy.init_node('user', anonymous=True)
+client = CapabilitiesClient()
+client.use_capability('demo_robot/Camera')
+print('uses it', flush=True)
+rospy.spin()
+'''
+
+
+def free_port() -> int:
+    """A port for a master that is in nobody's way."""
+    with socket.socket() as probe:
+        probe.bind(('127.0.0.1', 0))
+        return int(probe.getsockname()[1])
+
+
+def say(text: str) -> None:
+    """Say what comes."""
+    print('\n# %s' % text, flush=True)
+
+
+def run(*verb: str) -> None:
+    """Do what a verb of ``rocon_uri capabilities`` does."""
+    print('$ rocon_uri capabilities %s' % ' '.join(verb), flush=True)
+    subprocess.call(['rosrun', 'capabilities', 'capabilities', *verb])
+
+
+def wait_for(uses: int, state: str = 'running', patience: float = 60.0) -> None:
+    """Wait until the server is there and the camera has so many uses, or is not there for 0."""
+    deadline = time.monotonic() + patience
+    while time.monotonic() < deadline:
+        done = subprocess.run(
+            ['rosrun', 'capabilities', 'capabilities', 'status', '--json'], stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL, universal_newlines=True)
+        answer = json.loads(done.stdout)
+        if 'capabilities' in answer:        # the server is there
+            found = [(one['uses'], one['state']) for one in answer['capabilities']
+                     if one['capability'] == 'demo_robot/Camera']
+            if found == ([(uses, state)] if uses else []):
+                return
+        time.sleep(0.2)
+    raise SystemExit('the camera should have %d uses by now' % uses)
+
+
+def start_user() -> 'subprocess.Popen[str]':
+    """A user of the camera, in a process of its own."""
+    user = subprocess.Popen([sys.executable, '-c', USER], stdout=subprocess.PIPE,
+                            stderr=subprocess.DEVNULL, universal_newlines=True)
+    assert user.stdout is not None
+    if not user.stdout.readline():
+        raise SystemExit('a user could not use the camera')
+    return user
+
+
+def tour() -> None:
+    """What there is to see."""
+    wait_for(0)
+    say('What the robot can do:')
+    run('list')
+    say('What a start of the camera would do:')
+    run('plan', 'demo_robot/Camera')
+    say('Two users use the camera. It runs, and so does the base, which it depends on.')
+    first, second = start_user(), start_user()
+    wait_for(2)
+    run('status')
+    say('The first user is killed. The camera runs on, for the second.')
+    first.kill()
+    first.wait()
+    wait_for(1)
+    run('status')
+    say('The second one ends. Nobody wants anything any more.')
+    second.send_signal(signal.SIGINT)
+    second.wait()
+    wait_for(0)
+    run('status')
+
+
+def main() -> int:
+    """Show it, and return the exit status."""
+    port = free_port()
+    with tempfile.TemporaryDirectory() as folder:
+        os.environ.update(ROS_MASTER_URI='http://127.0.0.1:%d' % port, ROS_IP='127.0.0.1',
+                          ROS_HOME=folder, ROS_LOG_DIR=folder)
+        os.environ.pop('ROS_HOSTNAME', None)
+        os.environ.pop('ROS_NAMESPACE', None)
+        with open(os.path.join(folder, 'server.log'), 'w') as log:
+            server = subprocess.Popen(['roslaunch', '-p', str(port), 'capabilities', 'demo.launch'],
+                                      stdout=log, stderr=log)
+        try:
+            tour()
+        finally:
+            server.send_signal(signal.SIGINT)
+            server.wait()
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
