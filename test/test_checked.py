@@ -108,3 +108,22 @@ def test_errors_can_be_pickled(error):
     assert (type(again), str(again), again.place) == (type(error), str(error), error.place)
     assert again.problem == 'p' and again.sentence == error.sentence
     assert isinstance(again, ValueError) == isinstance(error, ValueError)
+
+
+def test_near_misses_are_only_looked_for_while_there_is_room_for_warnings():
+    class Full(Noting):
+        def has_room(self):
+            return len(self.noted) < 2
+
+        def warn(self, problem, place):
+            self.noted.append(problem)
+
+        def expectation(self, found, known):
+            self.asked += 1
+            return ''
+
+    reading = Full()
+    reading.noted, reading.asked = [], 0
+    reading.load('{a: 1, b: 2, c: 3, d: 4}', 'the thing').warn_of_unknown(['b'])
+    assert reading.noted == ["unknown key 'a' in the thing", "unknown key 'c' in the thing"]
+    assert reading.asked == 2

@@ -56,8 +56,11 @@ class SpecReading(Reading):
 
     def warn(self, problem: str, place: Place = NOWHERE) -> None:
         """Note something odd, which is logged if the spec can be read."""
-        if len(self.warnings) < _MAX_WARNINGS:
-            self.warnings.append(SpecWarning(problem, self.file_name, *place))
+        self.warnings.append(SpecWarning(problem, self.file_name, *place))
+
+    def has_room(self) -> bool:
+        """Is a further unknown key noted?"""
+        return len(self.warnings) < _MAX_WARNINGS
 
     def finished(self, spec: Spec) -> Spec:
         """The spec that was read, with what is known about its reading."""

@@ -61,6 +61,10 @@ class Reading:
     def warn(self, problem: str, place: Place = NOWHERE) -> None:
         """Note what is odd and does no harm. Here it is ignored."""
 
+    def has_room(self) -> bool:
+        """Is a further unknown key noted? Its near misses take long to find."""
+        return True
+
     def expectation(self, found: object, known: Sequence[str]) -> str:
         """The end of an error: what was probably meant, or else all that could have been."""
         meant = did_you_mean(near_misses(found, known)) if isinstance(found, str) else ''
@@ -263,7 +267,7 @@ class CheckedMapping:
     def warn_of_unknown(self, known: Sequence[str]) -> None:
         """Note the keys that are not known."""
         for key in self.data:
-            if key not in known:
+            if key not in known and self.reading.has_room():
                 unknown = self.unknown_key(key, known)
                 self.reading.warn(unknown.problem, unknown.place)
 
