@@ -202,7 +202,7 @@ class CheckedMapping:
         """
         The mapping that a key may have.
 
-        :param bool is_checked: is no key of it repeated?
+        :param bool is_checked: is a repeated key in it refused?
         :returns: `CheckedMapping`; an empty one for nothing or ``[]``, or if it was refused
         """
         value = self.data.get(key)
