@@ -13,7 +13,7 @@ from made_packages import make_package
 
 NODE = '''\
 #!%s
-"""Do what the arguments say: sleep SECONDS, exit CODE, kill SIGNAL, ignore, say TEXT."""
+"""Do what the arguments say: sleep SECONDS, exit CODE, kill SIGNAL, ignore, fork, say, flood."""
 import os, signal, sys, time
 words = iter(argument for argument in sys.argv[1:] if ':=' not in argument)
 for word in words:
@@ -26,8 +26,15 @@ for word in words:
     elif word == 'ignore':
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    elif word == 'fork':
+        if os.fork() == 0:
+            os.setsid()
+            time.sleep(1000)
     elif word == 'say':
         print(next(words), flush=True)
+    elif word == 'flood':
+        while True:
+            sys.stdout.write(1000 * 'x')
 ''' % sys.executable
 
 
