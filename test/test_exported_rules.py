@@ -7,11 +7,13 @@ import subprocess
 import sys
 
 import pytest
+from capabilities.discovery import package_index_from_package_path
 from sources import SOURCE
 
 from rocon_uri import Vocabulary, is_compatible, parse
-from rocon_uri.exported_rules import read_rules, with_exported_rules
+from rocon_uri.sources.packages import find_packages
 from rocon_uri.sources.yaml_data import YamlError
+from rocon_uri.vocabulary import read_rules, with_exported_rules
 
 PACKAGE = '''\
 <package format="2">
@@ -99,8 +101,8 @@ def test_an_empty_file_adds_nothing(tmp_path):
     ('hardware_platform:\n  phone:\n  - pr2\n', 3, 5, "'pr2' cannot be in 'phone', since it is in"),
     ('hardware_platform:\n  robot:\n  - [a]\n', 3, 5, 'a list stands where a value'),
     ('hardware_platform: {a: }\npc: [a]\n', 2, 1, "'pc' is no field"),
-    ('hardware_platform:\n  a: [b]\n  a: [c]\n', 3, 3, "'a' is there twice"),
-    ('hardware_platform: [a: {b: }, c: {d: , d: }]\n', 1, 40, "'d' is there twice"),
+    ('hardware_platform:\n  a: [b]\n  a: [c]\n', 3, 3, "duplicate key 'a'"),
+    ('hardware_platform: [a: {b: }, c: {d: , d: }]\n', 1, 40, "duplicate key 'd'"),
     ('bender\n', 1, 1, "'bender' is no field"),
     ('3\n', 1, 1, "'3' is no field"),
     ('"%s": 3\n' % ('x' * 1000), 1, 1, 'is no field'),
@@ -152,7 +154,8 @@ def test_a_package_hides_those_of_its_name_further_on(workspace, tmp_path, monke
     assert warnings(caplog) == []
 
 
-@pytest.mark.parametrize('marker', ['CATKIN_IGNORE', 'rospack_nosubdirs'])
+@pytest.mark.parametrize('marker', [
+    'AMENT_IGNORE', 'CATKIN_IGNORE', 'COLCON_IGNORE', 'rospack_nosubdirs'])
 def test_packages_are_not_looked_for_where_ros_does_not_look(workspace, marker, caplog):
     make_package(workspace / 'marked' / 'ours', robots=RULES)
     (workspace / 'marked' / marker).write_text('')
@@ -164,6 +167,17 @@ def test_packages_are_not_looked_for_where_ros_does_not_look(workspace, marker, 
     make_package(workspace / 'rosbuild' / 'ours', robots=RULES)
     assert robots(exported()) == []
     assert warnings(caplog) == []
+
+
+@pytest.mark.parametrize('marker', ['AMENT_IGNORE', 'CATKIN_IGNORE', 'COLCON_IGNORE', None])
+def test_discovery_and_parse_see_the_same_packages(workspace, marker):
+    ours = make_package(workspace / 'ours', robots=RULES)
+    if marker is not None:
+        (ours / marker).touch()
+    seen = [] if marker else ['ours']
+    assert list(package_index_from_package_path([str(workspace)])) == seen
+    assert list(find_packages([str(workspace)])) == seen
+    assert robots(exported()) == (['bender'] if seen else [])
 
 
 def test_links_in_a_circle_are_followed_once(workspace):
@@ -195,8 +209,9 @@ def test_a_fault_costs_only_the_file_that_it_is_in(workspace, monkeypatch, caplo
 
     assert robots(exported()) == ['bender', 'flexo']
     expected = [
-        (str(workspace / 'broken' / 'package.xml'), 'line 1'),
-        (str(workspace / 'empty' / 'package.xml'), 'line 1'),
+        ('%s:1:22: ' % (workspace / 'broken' / 'package.xml'), 'no element found'),
+        ('%s:1:1: ' % (workspace / 'empty' / 'package.xml'), 'no element found'),
+        (str(workspace / 'nameless' / 'package.xml'), 'exactly one "name" tag'),
         (str(workspace / 'strange' / 'package.xml'), 'encoding'),
         ('%s:4:5: ' % (ours / 'star.yaml'), "'*' is not a ROS base name"),
         (str(ours / 'missing.yaml'), 'No such file'),
@@ -345,7 +360,7 @@ def test_a_package_on_the_package_path_is_found_by_parse(workspace):
     (workspace / 'broken').mkdir()
     (workspace / 'broken' / 'package.xml').write_text('<package>rocon_uri')
     assert run("print(parse('rocon:/bender'), len(reads))") == (
-        'rules of a package left out: %s: no element found: line 1, column 18\n'
+        'rules of a package left out: %s:1:19: not XML: no element found\n'
         'rocon:/bender/*/*/* 1\n' % (workspace / 'broken' / 'package.xml'))
 
 

@@ -24,9 +24,10 @@ from sources import ROOT, SOURCE
 from rocon_uri import RoconURI, RoconURIValueError, is_compatible, parse
 from rocon_uri.lint import check_packages
 from rocon_uri.messages import from_msg
-from rocon_uri.package_rules import vocabulary_from_package_index
 from rocon_uri.apps.rapps import InvalidRapp, rapps_from_package_index, runnable
+from rocon_uri.sources.packages import find_packages
 from rocon_uri.sources.yaml_data import YamlError
+from rocon_uri.vocabulary import vocabulary_of_packages
 
 INTERFACE = 'name: %s\nspec_version: 1\nspec_type: interface\n'
 PROVIDER = ('name: camera\nspec_version: 1\nspec_type: provider\nimplements: good/Camera\n'
@@ -244,7 +245,7 @@ def check_library(workspace, expected):
     index = package_index_from_package_path(str(workspace), faults)
     specs, spec_faults = spec_index_from_spec_file_index(spec_file_index_from_package_index(index))
     rapps, rapp_faults = rapps_from_package_index(index)
-    vocabulary, rules_faults = vocabulary_from_package_index(index)
+    vocabulary, rules_faults = vocabulary_of_packages(find_packages([str(workspace)]))
     assert (specs.names, list(rapps)) == (['good/Camera', 'good/camera'], ['good/look'])
     assert runnable(rapps['good/look'], parse('rocon:/our_robot/bob', vocabulary), specs)
     found = {}

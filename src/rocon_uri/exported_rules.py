@@ -1,142 +1,93 @@
 """
-The rules that the packages on this machine export, and those that ROCON_URI_RULES names.
+The files of rules that packages export or ROCON_URI_RULES names, read into data.
 
 A package adds values to the vocabulary with a file of rules and, in its package.xml::
 
     <export><rocon_uri rules="${prefix}/rules/our_robots.yaml"/></export>
 
-Whatever is wrong with one file is logged, with the line, and costs only what that file says.
+What is wrong with one file costs only what that file says. `rocon_uri.vocabulary` makes a
+vocabulary of what is read here.
 """
 from __future__ import annotations
 
 import os
+from typing import Any, List, Mapping, NamedTuple, Sequence, Tuple
 
-from rocon_uri.sources.wording import quoted
-from rocon_uri.field_vocabulary import RulesError
-from rocon_uri.vocabulary import Vocabulary
+from rocon_uri.sources.checked import Reading
+from rocon_uri.sources.packages import Package, PackageError, find_packages
+from rocon_uri.sources.yaml_data import YamlError
+from rocon_uri.sources.yaml_source import load_file
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Dict, Iterable, Iterator, List, Tuple
-
-__all__ = ['read_rules', 'rules_path', 'with_exported_rules', 'with_rules']
-
-_END_OF_SEARCH = frozenset(('package.xml', 'manifest.xml', 'rospack_nosubdirs'))
+__all__ = ['RulesFile', 'read_rules_file', 'rules_paths', 'rules_paths_of_machine']
 
 
-def read_rules(vocabulary: Vocabulary, path: str) -> Vocabulary:
+class RulesFile(NamedTuple):
+    """A file of rules that is YAML; what it says is not checked yet."""
+
+    #: where it is
+    path: str
+    #: what it holds, as `rocon_uri.sources.yaml_source.load_file` returns it
+    rules: Any
+
+    def position(self, path: Sequence[Any]) -> Tuple[int, int]:
+        """
+        Where in the file something is.
+
+        :param path: sequence of the keys and indices that lead to it
+        :returns: (int, int), line and column from 1
+        """
+        line, column = 1, 1
+        rules = self.rules
+        for key in path:
+            if isinstance(rules, dict):
+                line, column = rules.key_position(key)      # type: ignore[attr-defined]
+            else:
+                line, column = rules.item_position(key)
+            rules = rules[key]
+        return line, column
+
+
+def read_rules_file(path: str) -> RulesFile:
     """
-    A vocabulary with what one file of rules adds.
+    Read one file of rules.
 
-    :param Vocabulary vocabulary: what there is already
-    :param str path: a YAML or JSON file: fields at the top, nested groups below
-    :returns: Vocabulary
-    :raises YamlError: `rocon_uri.yaml_source.YamlError`, if there is a fault in it; says where
+    :param str path: a YAML or JSON file
+    :returns: `RulesFile`
+    :raises YamlError: `rocon_uri.sources.yaml_data.YamlError`, if it is not YAML or has a
+        duplicate key
     :raises OSError: if it cannot be read
+
+    >>> read_rules_file('examples/workspace/cafe_cart/rules/robots.yaml').position([])
+    (1, 1)
     """
-    from rocon_uri.sources.yaml_data import YamlError      # loads yaml
-    from rocon_uri.sources.yaml_source import load_file      # loads yaml
     rules = load_file(path)
-    _refuse_repeated_keys(rules, path)
-    try:
-        return vocabulary if rules is None else vocabulary.extended(rules)
-    except RulesError as error:
-        line, column = _position(rules, error.path)
-        raise YamlError(error.problem, path, line, column) from None
+    Reading(path, YamlError).refuse_duplicates(rules)    # one of the two would be lost
+    return RulesFile(path, rules)
 
 
-def with_rules(vocabulary: Vocabulary,
-               paths: Iterable[str]) -> Tuple[Vocabulary, List[Exception]]:
+def rules_paths(packages: Mapping[str, Package]) -> List[str]:
     """
-    A vocabulary with what files of rules add; one with a fault adds nothing.
+    The files of rules that packages export, whether they exist or not.
 
-    :param Vocabulary vocabulary: what there is already
-    :param paths: iterable of str
-    :returns: (Vocabulary, list of `YamlError` and `OSError`)
+    :param packages: as `rocon_uri.sources.packages.find_packages` returns them
+    :returns: list of str, absolute paths, in the order of the packages and their exports
+
+    >>> rules_paths({})
+    []
     """
-    errors: List[Exception] = []
-    for path in paths:
-        try:
-            vocabulary = read_rules(vocabulary, path)
-        except (OSError, ValueError) as error:
-            errors.append(error)
-    return vocabulary, errors
+    return [path for package in packages.values() for path in package.files('rocon_uri', 'rules')]
 
 
-def rules_path(folder: str, rules: str) -> str:
+def rules_paths_of_machine() -> Tuple[List[str], List[PackageError]]:
     """
-    The file that a package means by the ``rules`` of its export.
+    The files that the packages on this machine's package path export, then ROCON_URI_RULES.
 
-    :param str folder: the package's
-    :param str rules: as it is written there
-    :returns: str
-
-    >>> rules_path('/opt/our_package', '${prefix}/rules/our_robots.yaml')
-    '/opt/our_package/rules/our_robots.yaml'
+    :returns: (list of str, the errors of `rocon_uri.sources.packages.find_packages`)
     """
-    return os.path.join(folder, rules.replace('${prefix}', folder))
-
-
-def _refuse_repeated_keys(rules: Any, path: str) -> None:
-    """One of the two would be lost."""
-    from rocon_uri.sources.yaml_data import YamlError, YamlMapping
-    if isinstance(rules, YamlMapping):
-        for key, _, (line, column) in rules.repeated:
-            raise YamlError('%s is there twice' % quoted(str(key)), path, line, column)
-    if isinstance(rules, (dict, list)):
-        for below in rules.values() if isinstance(rules, dict) else rules:
-            _refuse_repeated_keys(below, path)
-
-
-def _position(rules: Any, path: Tuple[Any, ...]) -> Tuple[int, int]:
-    """Where in a file the place is that a path of keys and indices leads to."""
-    line, column = 1, 1
-    for key in path:
-        if isinstance(rules, dict):
-            line, column = rules.key_position(key)      # type: ignore[attr-defined]
-        else:
-            line, column = rules.item_position(key)
-        rules = rules[key]
-    return line, column
-
-
-def with_exported_rules(vocabulary: Vocabulary) -> Vocabulary:
-    """
-    A vocabulary with all that can be found on this machine.
-
-    :param Vocabulary vocabulary: what there is already
-    :returns: Vocabulary
-    """
-    vocabulary, errors = with_rules(vocabulary, _paths())
-    for error in errors:
-        _warn('rules left out: %s', error)
-    return vocabulary
-
-
-def _paths() -> Iterator[str]:
-    for paths in _exported_paths().values():
-        yield from paths
-    for path in os.environ.get('ROCON_URI_RULES', '').split(os.pathsep):
-        if path:
-            yield path
-
-
-def _exported_paths() -> Dict[str, List[str]]:
-    """The files of rules by package; one that is found first hides those of its name."""
-    exported: Dict[str, List[str]] = {}
-    from xml.etree import ElementTree       # here, since it costs more than a known value may
-    for folder in _package_folders(_ros_paths()):
-        manifest = os.path.join(folder, 'package.xml')
-        # rospkg itself gives up at the first manifest that is no XML, and loads rosdep to read one.
-        try:
-            package = ElementTree.fromstring(_manifest(manifest))
-        except Exception as error:      # whatever is wrong with somebody's package
-            _warn('rules of a package left out: %s: %s', manifest, error)
-            continue
-        rules = (export.get('rules') for export in package.iterfind('export/rocon_uri'))
-        exported.setdefault((package.findtext('name') or folder).strip(), [
-            rules_path(folder, path) for path in rules if path])
-    return exported
+    faults: List[PackageError] = []
+    paths = rules_paths(find_packages(_ros_paths(), faults))
+    paths += filter(None, os.environ.get('ROCON_URI_RULES', '').split(os.pathsep))
+    return paths, faults
 
 
 def _ros_paths() -> List[str]:
@@ -144,39 +95,5 @@ def _ros_paths() -> List[str]:
     try:
         import rospkg       # not there without ROS; it knows what a distribution adds
     except ImportError:
-        return [path for path in os.environ.get('ROS_PACKAGE_PATH', '').split(os.pathsep) if path]
+        return os.environ.get('ROS_PACKAGE_PATH', '').split(os.pathsep)
     return list(rospkg.RosPack().get_ros_paths())
-
-
-def _manifest(path: str) -> bytes:
-    """The content of a package.xml; OSError or ValueError for what is not read, as a FIFO."""
-    from rocon_uri.sources.yaml_data import MAX_SIZE       # which a known value does not need
-    from rocon_uri.sources.yaml_source import read_file       # which a known value does not need
-    content = read_file(path)
-    if len(content) > MAX_SIZE:
-        raise ValueError('larger than 1 MiB, which is all that is read')
-    if '<!ENTITY' in content.decode('utf-8'):   # of which not every expat bounds the expansion
-        raise ValueError('it declares entities, and those are not read')
-    return content
-
-
-def _package_folders(ros_paths: List[str]) -> Iterator[str]:
-    """The folders with a package.xml, found as rospkg finds them, but none of them twice."""
-    visited = set()
-    for ros_path in ros_paths:
-        for folder, subfolders, files in os.walk(ros_path, followlinks=True):
-            place = os.path.realpath(folder)
-            is_new = place not in visited and 'CATKIN_IGNORE' not in files
-            visited.add(place)
-            if is_new and 'package.xml' in files:
-                yield folder
-            if (is_new and _END_OF_SEARCH.isdisjoint(files)
-                    and not folder.startswith('/usr/share/')):
-                subfolders[:] = sorted(name for name in subfolders if name[0] != '.')
-            else:
-                subfolders.clear()
-
-
-def _warn(text: str, *details: Any) -> None:
-    import logging      # costs more than the rest of the package, and few need it
-    logging.getLogger('rocon_uri').warning(text, *details)

@@ -17,9 +17,12 @@ from rocon_uri.grammar import VOCABULARY_FIELDS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Mapping, Optional, Tuple
+    from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple
 
-__all__ = ['Vocabulary', 'complete', 'completed', 'current', 'precedence']
+    from rocon_uri.sources.packages import Package
+
+__all__ = ['Vocabulary', 'complete', 'completed', 'current', 'precedence', 'read_rules',
+           'vocabulary_of_packages', 'with_exported_rules']
 
 _RULES_FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'rules')
 _serial_numbers = itertools.count()
@@ -138,6 +141,87 @@ def _extended(fields: Mapping[str, FieldVocabulary],
     return extended
 
 
+def read_rules(vocabulary: Vocabulary, path: str) -> Vocabulary:
+    """
+    A vocabulary with what one file of rules adds.
+
+    :param Vocabulary vocabulary: what there is already
+    :param str path: a YAML or JSON file: fields at the top, nested groups below
+    :returns: Vocabulary
+    :raises YamlError: `rocon_uri.sources.yaml_data.YamlError`, with the place of a fault in it
+    :raises OSError: if it cannot be read
+
+    >>> cafe = read_rules(Vocabulary.bundled(), 'examples/workspace/cafe_cart/rules/robots.yaml')
+    >>> 'cafe_cart' in cafe.field('hardware_platform')
+    True
+    """
+    extended, faults = _with_rules_files(vocabulary, [path])
+    for fault in faults:
+        raise fault
+    return extended
+
+
+def vocabulary_of_packages(packages: Mapping[str, Package]) -> Tuple[Vocabulary, List[Exception]]:
+    """
+    What this machine knows, and what these packages add.
+
+    :param packages: as `rocon_uri.sources.packages.find_packages` returns them
+    :returns: (`Vocabulary`, list of `YamlError` and `OSError`); a file with a fault adds nothing
+
+    >>> vocabulary, errors = vocabulary_of_packages({})
+    >>> 'kobuki' in vocabulary.field('hardware_platform')
+    True
+    """
+    from rocon_uri.exported_rules import rules_paths    # here and below, only where it is used
+    paths = rules_paths(packages)
+    return _with_rules_files(complete() if paths else current(), paths)
+
+
+def with_exported_rules(vocabulary: Vocabulary) -> Vocabulary:
+    """
+    A vocabulary with all that the packages on this machine and ``ROCON_URI_RULES`` add.
+
+    A package or a file with a fault is logged, with the line, and adds nothing.
+
+    :param Vocabulary vocabulary: what there is already
+    :returns: Vocabulary
+    """
+    from rocon_uri.exported_rules import rules_paths_of_machine
+    paths, package_errors = rules_paths_of_machine()
+    for error in package_errors:
+        _warn('rules of a package left out: %s', error)
+    vocabulary, faults = _with_rules_files(vocabulary, paths)
+    for fault in faults:
+        _warn('rules left out: %s', fault)
+    return vocabulary
+
+
+def _with_rules_files(vocabulary: Vocabulary, paths: Iterable[str],
+                      ) -> Tuple[Vocabulary, List[Exception]]:
+    """One new vocabulary for all files without a fault, and the faults of the others."""
+    from rocon_uri.exported_rules import read_rules_file
+    from rocon_uri.sources.yaml_data import YamlError
+    fields = vocabulary._fields
+    faults: List[Exception] = []
+    for path in paths:
+        try:
+            file = read_rules_file(path)
+            try:
+                fields = _extended(fields, file.rules)
+            except RulesError as error:
+                raise YamlError(error.problem, path, *file.position(error.path)) from None
+        except (OSError, YamlError) as error:
+            faults.append(error)
+    if all(fields[name] is field for name, field in vocabulary._fields.items()):
+        return vocabulary, faults
+    return Vocabulary._of(fields, vocabulary.is_open), faults
+
+
+def _warn(text: str, fault: Exception) -> None:
+    import logging      # costs more than the rest of the package, and few need it
+    logging.getLogger('rocon_uri').warning(text, fault)
+
+
 _initial: Optional[Vocabulary] = None       # what is bundled, in use until more is asked for
 _complete: Optional[Vocabulary] = None
 _lock = RLock()
@@ -170,7 +254,6 @@ def complete() -> Vocabulary:
     if _complete is None:
         with _lock:
             if _complete is None:
-                from rocon_uri.exported_rules import with_exported_rules    # only where it is used
                 _complete = with_exported_rules(current())
     return _complete
 

@@ -16,9 +16,10 @@ from made_packages import PACKAGE_XML, make_package
 
 from rocon_uri.lint import ERROR, check_package_index
 from rocon_uri.lint.checked_file import is_inside
-from rocon_uri.package_rules import vocabulary_from_package_index
 from rocon_uri.apps.rapps import InvalidRapp, rapps_from_package_index
+from rocon_uri.sources.packages import find_packages
 from rocon_uri.sources.yaml_data import YamlError
+from rocon_uri.vocabulary import vocabulary_of_packages
 
 
 GOOD = {path.parent: path.read_bytes() for path in files('package.xml')}
@@ -70,7 +71,7 @@ def check_workspace(workspace):
     index = package_index_from_package_path(workspace, faults)
     specs, spec_faults = spec_index_from_spec_file_index(spec_file_index_from_package_index(index))
     rapps, rapp_faults = rapps_from_package_index(index)
-    vocabulary, rules_faults = vocabulary_from_package_index(index)
+    vocabulary, rules_faults = vocabulary_of_packages(find_packages([str(workspace)]))
     assert 'untouched/Camera' in specs.interfaces
     assert 'untouched/dance' in rapps
     assert 'untouched' in vocabulary.field('hardware_platform')
@@ -81,7 +82,7 @@ def check_workspace(workspace):
                            InterfaceNameNotFoundException))):
         assert all(isinstance(fault, kinds) for fault in found), found
         assert all(isinstance(fault, OSError) or str(fault).isprintable() for fault in found)
-    findings = check_package_index(index, {}, faults)
+    findings = check_package_index(find_packages([workspace]), {}, faults)
     check_findings(findings, workspace)
     assert not any('a_package' in finding.file_name for finding in findings)
     assert len(faults) == 2 - len(index)

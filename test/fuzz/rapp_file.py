@@ -15,10 +15,12 @@ from made_packages import make_package
 from rocon_uri import RoconURIValueError, is_compatible
 from rocon_uri.lint import ERROR, check_package_index
 from rocon_uri.apps.rapps import InvalidRapp, rapp_from_string, rapps_from_package_index, runnable
+from rocon_uri.sources.packages import find_packages
 from rocon_uri.sources.yaml_data import YamlMapping
 
 
 OTHERS = package_index_from_package_path(str(ROOT / 'examples/workspace/cafe_capabilities'))
+LINT_OTHERS = find_packages([str(ROOT / 'examples/workspace/cafe_capabilities')])
 SPECS, _ = spec_index_from_spec_file_index(spec_file_index_from_package_index(OTHERS))
 ROBOT = 'rocon:/waiterbot/bob/noetic/focal'
 
@@ -72,9 +74,9 @@ def check(texts):
         for name, text in texts.items():
             (package / name).write_bytes(text.encode('utf-8', 'surrogatepass'))
         index = package_index_from_package_path(folder)
-        findings = check_package_index(index, OTHERS)
+        findings = check_package_index(find_packages([folder]), LINT_OTHERS)
         check_findings(findings, folder)
-        assert check_package_index(index, OTHERS) == findings
+        assert check_package_index(find_packages([folder]), LINT_OTHERS) == findings
         rapps, errors = rapps_from_package_index(index)
         assert len(rapps) + len(errors) == len(exports)
         found = {(Path(finding.file_name).name, finding.line, finding.column)

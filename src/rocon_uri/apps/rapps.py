@@ -16,15 +16,16 @@ Its name consists of those of the package and the file: ``our_rapps/dance``.
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 from rocon_uri.apps.rapp import (
     InvalidRapp, Rapp, RequiredCapability, rapp_from_file_path, rapp_from_string)
 from rocon_uri.apps.runnable import Reason, ReasonKind, Verdict, runnable
+from rocon_uri.sources.packages import Package, as_package
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted, quoted_path
 
 if TYPE_CHECKING:
-    from catkin_pkg.package import Package
+    from catkin_pkg.package import Package as CatkinPackage
 
 __all__ = ['InvalidRapp', 'Rapp', 'Reason', 'ReasonKind', 'RequiredCapability', 'Verdict',
            'rapp_file_index_from_package_index', 'rapp_from_file_path', 'rapp_from_string',
@@ -46,28 +47,25 @@ def rapp_name(package: str, path: str) -> str:
     return '%s/%s' % (package, os.path.splitext(os.path.basename(path))[0])
 
 
-def rapp_file_index_from_package_index(package_index: Mapping[str, Package]
-                                       ) -> Dict[str, List[str]]:
+def rapp_file_index_from_package_index(
+        package_index: Mapping[str, Union[Package, CatkinPackage]]) -> Dict[str, List[str]]:
     """
     The files that packages export as rapps, whether they exist or not.
 
-    :param package_index: mapping of package names to catkin_pkg packages, as
-        `capabilities.discovery.package_index_from_package_path` gives it
+    :param package_index: mapping of package names to packages, as
+        `rocon_uri.sources.packages.find_packages` or
+        `capabilities.discovery.package_index_from_package_path` returns it
     :returns: dict of package name to a list of paths, in the order of the exports; packages
         without any are left out
     """
-    index: Dict[str, List[str]] = {}
-    for name, package in package_index.items():
-        folder = os.path.dirname(package.filename)
-        for export in package.exports:
-            if export.tagname == 'rocon_app':
-                path = os.path.join(folder, export.content)
-                index.setdefault(name, []).append(os.path.normpath(path))
-    return index
+    index = {name: as_package(package).files('rocon_app')
+             for name, package in package_index.items()}
+    return {name: paths for name, paths in index.items() if paths}
 
 
 def rapps_from_package_index(
-        package_index: Mapping[str, Package]) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
+        package_index: Mapping[str, Union[Package, CatkinPackage]],
+        ) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
     """
     The rapps that packages export, with what they inherit from their parents.
 

@@ -31,8 +31,7 @@ from argparse import ArgumentTypeError
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.given import GivenURI
 from rocon_uri.cli.packages import (
-    PackageReport, Packages, add_package_path, escape_unencodable, package_path, printable,
-    shortened)
+    PackageReport, add_package_path, escape_unencodable, printable, shortened, workspace)
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 from rocon_uri.platform import (
@@ -79,16 +78,15 @@ def main(args: argparse.Namespace) -> int:
     """Do it, and return the exit status."""
     escape_unencodable()
     report = PackageReport(args.json)
-    packages = Packages(package_path(args, report), report)
-    robot = _read_robot(args.robot, packages.vocabulary, report)
+    exported = workspace(args, report)
+    robot = _read_robot(args.robot, exported.vocabulary, report)
     defaults = _read_defaults(args.defaults, report)
     if robot is None or defaults is None:
         return report.status
     from rocon_uri.apps.rapps import runnable    # here, since it loads YAML
-    from rocon_uri.sources.launch_file import LaunchFiles   # the same
-    launch_files = LaunchFiles()
-    verdicts = [runnable(rapp, robot.uri, packages.spec_index, defaults, launch_files, args.ignore)
-                for rapp in packages.rapps.values()]
+    verdicts = [runnable(rapp, robot.uri, exported.spec_index, defaults, exported.launch_files,
+                         args.ignore)
+                for rapp in exported.rapps.values()]
     if args.json:
         print_json({'robot': robot.as_json(),
                     'apps': [_as_json(verdict) for verdict in verdicts if verdict or args.all],

@@ -10,10 +10,12 @@ from rocon_uri.sources.wording import quoted_path
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Any, Dict, Iterable, List, Optional
+    from typing import Any, Iterable, List, Optional
 
-__all__ = ['PackageReport', 'Packages', 'add_package_path', 'escape_unencodable', 'package_path',
-           'printable', 'quiet_loggers', 'shortened']
+    from rocon_uri.workspace import Workspace
+
+__all__ = ['PackageReport', 'add_package_path', 'escape_unencodable', 'package_path',
+           'printable', 'quiet_loggers', 'shortened', 'workspace']
 
 
 def add_package_path(parser: argparse.ArgumentParser) -> None:
@@ -98,33 +100,20 @@ def package_path(args: argparse.Namespace, report: PackageReport,
     return folders
 
 
-class Packages:
+def workspace(args: argparse.Namespace, report: PackageReport) -> Workspace:
     """
-    Packages, and what they export.
+    All that the packages on the package path export.
 
-    :param paths: iterable of str, folders with packages below them
-    :param PackageReport report: is told what is wrong with them
-
-    - ``by_name``: dict of catkin_pkg packages
-    - ``spec_index``: `capabilities.discovery.SpecIndex`
-    - ``rapps``: dict of `rocon_uri.rapp.Rapp` by name
-    - ``vocabulary``: `rocon_uri.Vocabulary`, with the rules that they export
+    :param args: those of the verb, which took `add_package_path`
+    :param report: is told what is wrong with them
+    :returns: `rocon_uri.workspace.Workspace`
     """
-
-    def __init__(self, paths: Iterable[str], report: PackageReport) -> None:
-        # here, since they load catkin_pkg and YAML, and a verb can be asked for help without
-        from capabilities import discovery
-        from rocon_uri.package_rules import vocabulary_from_package_index
-        from rocon_uri.apps.rapps import rapps_from_package_index
-        quiet_loggers()
-        faults: List[Any] = []
-        self.by_name: Dict[str, Any] = discovery.package_index_from_package_path(paths, faults)
-        self.spec_index, spec_faults = discovery.spec_index_from_spec_file_index(
-            discovery.spec_file_index_from_package_index(self.by_name))
-        self.rapps, rapp_faults = rapps_from_package_index(self.by_name)
-        self.vocabulary, rules_faults = vocabulary_from_package_index(self.by_name)
-        for fault in [*faults, *spec_faults, *rapp_faults, *rules_faults]:
-            report.bad_file(fault)
+    from rocon_uri.workspace import read_workspace  # here, since it loads catkin_pkg and YAML
+    quiet_loggers()
+    found = read_workspace(package_path(args, report))
+    for fault in found.faults:
+        report.bad_file(fault)
+    return found
 
 
 def quiet_loggers() -> None:

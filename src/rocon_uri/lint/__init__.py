@@ -12,14 +12,14 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 
-from capabilities.discovery import package_index_from_package_path
 from rocon_uri.lint.checked_file import is_inside
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.lint.interactions_files import check_interactions_file, interactions_files
-from rocon_uri.lint.manifest import check_exports
+from rocon_uri.lint.manifest import check_manifest
 from rocon_uri.lint.rapp_files import check_rapp
 from rocon_uri.lint.spec_files import check_spec
-from rocon_uri.lint.surroundings import Surroundings
+from rocon_uri.sources.packages import Package, PackageError, find_packages
+from rocon_uri.workspace import load_workspace
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -38,42 +38,42 @@ def check_packages(paths: Iterable[str], package_path: Iterable[str] = ()) -> Li
     :returns: list of `Finding`, by file and line; files have paths relative to the working
         directory if they are below it, else absolute ones
     """
-    faults: List[Exception] = []
-    checked = package_index_from_package_path(paths, faults)
-    return check_package_index(checked, package_index_from_package_path(package_path), faults)
+    faults: List[PackageError] = []
+    checked = find_packages(paths, faults)
+    return check_package_index(checked, find_packages(package_path), faults)
 
 
-def check_package_index(checked: Mapping[str, Any], others: Mapping[str, Any],
+def check_package_index(checked: Mapping[str, Package], others: Mapping[str, Package],
                         faults: Iterable[Exception] = ()) -> List[Finding]:
     """
     The same for packages that were found already.
 
-    :param checked: dict of catkin_pkg packages by name, those to check
-    :param others: dict of catkin_pkg packages by name, those that they may refer to
-    :param faults: the errors of `capabilities.discovery.package_index_from_package_path`
+    :param checked: dict of `rocon_uri.sources.packages.Package` by name, those to check
+    :param others: dict of the same, those that they may refer to
+    :param faults: the errors of `rocon_uri.sources.packages.find_packages`
     :returns: list of `Finding`, as `check_packages` returns it
 
     >>> check_package_index({}, {})
     []
     """
-    surroundings = Surroundings({**others, **checked})
-    folders = {name: os.path.dirname(package.filename) for name, package in checked.items()}
+    workspace = load_workspace({**others, **checked})
+    folders = {name: package.folder for name, package in checked.items()}
     own_folders = set(folders.values())
     findings = [_finding(fault) for fault in faults]
-    findings += [_finding(fault) for fault in surroundings.faults
+    findings += [_finding(fault) for fault in workspace.faults
                  if _is_in_one_of(_path(fault), own_folders)]
     for name, folder in folders.items():
-        findings += check_exports(checked[name].filename)
+        findings += check_manifest(checked[name])
         for path in interactions_files(folder):
-            findings += check_interactions_file(path, folder, surroundings)
-    for path, spec in surroundings.specs():
-        folder = folders.get(spec.name.partition('/')[0])
+            findings += check_interactions_file(path, folder, workspace)
+    for path, spec in workspace.specs():
+        folder = folders.get(spec.name.partition('/')[0], '')
         if folder and is_inside(path, folder):      # to export what is elsewhere is fault enough
-            findings += check_spec(spec, path, folder, surroundings)
-    for rapp in surroundings.own_rapps.values():
-        folder = folders.get(rapp.package)
+            findings += check_spec(spec, path, folder, workspace)
+    for rapp in workspace.own_rapps.values():
+        folder = folders.get(rapp.package, '')
         if folder and is_inside(rapp.path, folder):
-            findings += check_rapp(rapp, folder, surroundings)
+            findings += check_rapp(rapp, folder, workspace)
     return _sorted(findings)
 
 

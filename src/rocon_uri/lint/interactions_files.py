@@ -12,10 +12,10 @@ from typing import Dict, Iterator, List, Tuple
 
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import Finding
-from rocon_uri.lint.surroundings import Surroundings
 from rocon_uri.sources.checked import CheckedMapping
 from rocon_uri.sources.located import Place
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.workspace import Workspace
 
 __all__ = ['check_interactions_file', 'interactions_files']
 
@@ -50,28 +50,28 @@ def interactions_files(package_folder: str) -> Iterator[str]:
 
 
 def check_interactions_file(path: str, package_folder: str,
-                            surroundings: Surroundings) -> List[Finding]:
+                            workspace: Workspace) -> List[Finding]:
     """
     Check one file.
 
     :param str path: the file
     :param str package_folder: where its package is
-    :param Surroundings surroundings: what it may refer to
+    :param Workspace workspace: what it may refer to
     :returns: list of `Finding`
     """
     file = CheckedFile(path, package_folder)
     data = file.read()
     if data is not None:
-        _check_data(data, file, surroundings)
+        _check_data(data, file, workspace)
     elif not file.findings:
         file.error('expected interactions, the file is empty', (1, 1))
     return file.findings
 
 
-def _check_data(data: object, file: CheckedFile, surroundings: Surroundings) -> None:
+def _check_data(data: object, file: CheckedFile, workspace: Workspace) -> None:
     seen = set()
     for kind, entry in _entries(data, 'interaction', file):
-        _check_entry(kind, entry, file, surroundings)
+        _check_entry(kind, entry, file, workspace)
         identity = kind, tuple(repr(entry.get(key)) for key in (
             'name', 'group', 'role', 'namespace', 'compatibility'))
         if identity in seen:
@@ -111,14 +111,14 @@ def _is_group(item: Dict[str, object]) -> bool:
 
 
 def _check_entry(kind: str, entry: CheckedMapping, file: CheckedFile,
-                 surroundings: Surroundings) -> None:
+                 workspace: Workspace) -> None:
     entry.warn_of_unknown(_KEYS[kind])
     for key in _REQUIRED_KEYS[kind]:
         entry.required(key)
     for key in ('name', 'compatibility', 'namespace', 'rapp'):
         value = entry.text(key)
         if value is not None:
-            _check_text(key, value, entry.value_place(key), file, surroundings)
+            _check_text(key, value, entry.value_place(key), file, workspace)
     for remapping in file.mappings(entry.sequence('remappings'), 'a remapping'):
         remapping.warn_of_unknown(('remap_from', 'remap_to'))
         for key in ('remap_from', 'remap_to'):
@@ -128,10 +128,10 @@ def _check_entry(kind: str, entry: CheckedMapping, file: CheckedFile,
 
 
 def _check_text(key: str, value: str, place: Place, file: CheckedFile,
-                surroundings: Surroundings) -> None:
+                workspace: Workspace) -> None:
     if key == 'compatibility':
-        file.check_compatibility(value, surroundings.vocabulary, place)
+        file.check_compatibility(value, workspace.vocabulary, place)
     elif key == 'namespace':
         file.check_ros_name(value, 'namespace', place)
     elif key == 'rapp':
-        file.check_exists(value, 'rapp', surroundings.rapps, place)
+        file.check_exists(value, 'rapp', workspace.rapps, place)

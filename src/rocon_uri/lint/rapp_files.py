@@ -9,9 +9,9 @@ from rocon_uri.grammar import is_rocon_app
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.lint.launch_files import check_launch_file
-from rocon_uri.lint.surroundings import Surroundings
 from rocon_uri.sources.checked import CheckedMapping
 from rocon_uri.sources.wording import quoted
+from rocon_uri.workspace import Workspace
 
 __all__ = ['check_rapp']
 
@@ -19,13 +19,13 @@ _PUBLIC_INTERFACE_KEYS = ('publishers', 'subscribers', 'services', 'action_clien
                           'action_servers')
 
 
-def check_rapp(rapp: Rapp, package_folder: str, surroundings: Surroundings) -> List[Finding]:
+def check_rapp(rapp: Rapp, package_folder: str, workspace: Workspace) -> List[Finding]:
     """
     Check one rapp, and the public interface and parameters that it names.
 
     :param Rapp rapp: as it was read from its file
     :param str package_folder: where the package is that exports it
-    :param Surroundings surroundings: what it may refer to
+    :param Workspace workspace: what it may refer to
     :returns: list of `Finding`
     """
     file = CheckedFile(rapp.path, package_folder)
@@ -35,7 +35,7 @@ def check_rapp(rapp: Rapp, package_folder: str, surroundings: Surroundings) -> L
     source = file.mapping(rapp.source, 'the rapp')
     source.warn_of_unknown(KEYS)
     if rapp.compatibility is not None:
-        file.check_compatibility(rapp.compatibility, surroundings.vocabulary,
+        file.check_compatibility(rapp.compatibility, workspace.vocabulary,
                                  rapp.position('compatibility'))
     if not rapp.is_implementation:
         for key, lacking in (('launch', 'compatibility'), ('compatibility', 'launch')):
@@ -55,19 +55,19 @@ def check_rapp(rapp: Rapp, package_folder: str, surroundings: Surroundings) -> L
                 findings += _check_public_file(key, path, package_folder)
     if rapp.launch is not None:
         findings += check_launch_file(rapp.launch, rapp.position('launch'), file,
-                                      surroundings.launch_files)
+                                      workspace.launch_files)
     for item in file.mappings(source.sequence('required_capabilities'), 'a required capability'):
-        _check_required_capability(item, file, surroundings)
+        _check_required_capability(item, file, workspace)
     return findings + file.findings
 
 
 def _check_required_capability(capability: CheckedMapping, file: CheckedFile,
-                               surroundings: Surroundings) -> None:
+                               workspace: Workspace) -> None:
     capability.warn_of_unknown(('name', 'interface'))
     name = capability.required_text('name')
-    file.check_exists(name, 'capability', surroundings.capabilities,
+    file.check_exists(name, 'capability', workspace.capabilities,
                       capability.value_place('name'))
-    interface = surroundings.interface(name)
+    interface = workspace.interface(name)
     kinds = capability.mapping('interface')
     kinds.warn_of_unknown(TYPES_OF_REMAPPINGS)
     for kind in TYPES_OF_REMAPPINGS:

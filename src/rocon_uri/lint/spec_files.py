@@ -10,10 +10,10 @@ from capabilities.specs.semantic_interface import SemanticCapabilityInterface
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import WARNING, Finding
 from rocon_uri.lint.launch_files import check_launch_file
-from rocon_uri.lint.surroundings import Surroundings
 from rocon_uri.sources.checked import CheckedMapping
 from rocon_uri.sources.wording import quoted
 from rocon_uri.sources.yaml_data import key_place, value_place
+from rocon_uri.workspace import Workspace
 
 __all__ = ['check_spec']
 
@@ -21,14 +21,14 @@ Spec = Union[CapabilityInterface, SemanticCapabilityInterface, CapabilityProvide
 
 
 def check_spec(spec: Spec, path: str, package_folder: str,
-               surroundings: Surroundings) -> List[Finding]:
+               workspace: Workspace) -> List[Finding]:
     """
     Check one spec.
 
     :param spec: an interface, a semantic interface or a provider that is in the index
     :param str path: the file that it was read from
     :param str package_folder: where the package is that exports it
-    :param Surroundings surroundings: what it may refer to
+    :param Workspace workspace: what it may refer to
     :returns: list of `Finding`
     """
     file = CheckedFile(path, package_folder)
@@ -38,9 +38,9 @@ def check_spec(spec: Spec, path: str, package_folder: str,
     if isinstance(spec, CapabilityInterface):
         _check_interface(spec, source, file)
     elif isinstance(spec, CapabilityProvider):
-        _check_provider(spec, source, file, surroundings)
+        _check_provider(spec, source, file, workspace)
     else:
-        _check_semantic_interface(spec, source, file, surroundings)
+        _check_semantic_interface(spec, source, file, workspace)
     return file.findings
 
 
@@ -60,7 +60,7 @@ def _check_interface(spec: CapabilityInterface, source: CheckedMapping, file: Ch
 
 
 def _check_semantic_interface(spec: SemanticCapabilityInterface, source: CheckedMapping,
-                              file: CheckedFile, surroundings: Surroundings) -> None:
+                              file: CheckedFile, workspace: Workspace) -> None:
     namespace = spec.global_namespace
     if namespace is not None:
         file.check_ros_name(namespace.rstrip('/') or namespace, 'global_namespace',
@@ -71,31 +71,31 @@ def _check_semantic_interface(spec: SemanticCapabilityInterface, source: Checked
         for name in new_names:
             file.check_ros_name(new_names.get(name), 'new name', new_names.value_place(name))
     try:
-        spec.resolve(surroundings.capabilities[spec.redefines])
+        spec.resolve(workspace.spec_index.interfaces[spec.redefines])
     except InvalidSpec as error:
         file.refuse(error)
 
 
 def _check_provider(spec: CapabilityProvider, source: CheckedMapping, file: CheckedFile,
-                    surroundings: Surroundings) -> None:
+                    workspace: Workspace) -> None:
     if spec.launch_file is not None:
         # The capability server looks beside the spec; people also write it from the package.
         file.findings += check_launch_file(
-            spec.launch_file, source.value_place('launch_file'), file, surroundings.launch_files,
+            spec.launch_file, source.value_place('launch_file'), file, workspace.launch_files,
             if_in_package=WARNING)
-    interface = surroundings.interface(spec.implements)
+    interface = workspace.interface(spec.implements)
     if interface is not None:
         kinds = source.mapping('remappings')
         for kind in kinds:
             file.check_remapped_names(kind, kinds.mapping(kind, is_checked=False), interface)
     for dependency in spec.dependencies.values():
-        _check_dependency(dependency, source, file, surroundings)
-    if spec.name in surroundings.cycles:
-        file.error(str(surroundings.cycles[spec.name]), source.value_place('depends_on'))
+        _check_dependency(dependency, source, file, workspace)
+    if spec.name in workspace.cycles:
+        file.error(str(workspace.cycles[spec.name]), source.value_place('depends_on'))
 
 
 def _check_dependency(dependency: DependsOnRelationship, source: CheckedMapping, file: CheckedFile,
-                      surroundings: Surroundings) -> None:
+                      workspace: Workspace) -> None:
     given = source.get('depends_on')
     name, preferred = dependency.capability_name, dependency.preferred_provider
     place = source.value_place('depends_on')
@@ -103,13 +103,13 @@ def _check_dependency(dependency: DependsOnRelationship, source: CheckedMapping,
         place = key_place(given, name)
     elif isinstance(given, list):
         place = value_place(given, given.index(name))
-    file.check_exists(name, 'capability', surroundings.capabilities, place)
+    file.check_exists(name, 'capability', workspace.capabilities, place)
     if preferred is None:
         return
     place = value_place(given[name], 'provider')
-    if file.check_exists(preferred, 'preferred provider', surroundings.providers, place):
-        implemented = surroundings.providers[preferred].implements
-        redefined = getattr(surroundings.capabilities.get(implemented), 'redefines', None)
+    if file.check_exists(preferred, 'preferred provider', workspace.providers, place):
+        implemented = workspace.providers[preferred].implements
+        redefined = getattr(workspace.capabilities.get(implemented), 'redefines', None)
         if name not in (implemented, redefined):
             file.error('preferred provider %s implements %s, not %s' % (
                 quoted(preferred), quoted(implemented), quoted(name)), place)

@@ -52,7 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Do it, and return the exit status."""
     # here, since they load catkin_pkg and YAML, and a verb can be asked for help without
-    from capabilities.discovery import package_index_from_package_path
+    from rocon_uri.sources.packages import find_packages
     from rocon_uri.lint import ERROR, check_package_index
     from rocon_uri.lint.junit import junit_text
     escape_unencodable()
@@ -61,10 +61,10 @@ def main(args: argparse.Namespace) -> int:
     around = package_path(args, report, is_needed=not args.paths)
     if args.paths:
         checked, faults = _given_packages(args.paths, report)
-        others = package_index_from_package_path(around)
+        others = find_packages(around)
     else:
         faults, others = [], {}
-        checked = package_index_from_package_path(around, faults)
+        checked = find_packages(around, faults)
     findings = check_package_index(checked, others, faults)
     if args.json:
         print_json({'findings': [finding.as_json() for finding in findings],
@@ -83,12 +83,12 @@ def main(args: argparse.Namespace) -> int:
 
 def _given_packages(paths: List[str], report: PackageReport) -> Tuple[Dict[str, Any], List[Any]]:
     """The packages in some folders, which should have some, and what is wrong with them."""
-    from capabilities.discovery import package_index_from_package_path      # see main
+    from rocon_uri.sources.packages import find_packages      # see main
     packages: Dict[str, Any] = {}
     faults: List[Any] = []
     for path in paths:
         new_faults: List[Any] = []
-        found = package_index_from_package_path([path], new_faults)
+        found = find_packages([path], new_faults)
         if not found and not new_faults:
             report.bad('%s %s' % (quoted_path(path), 'has no package in it' if os.path.isdir(path)
                                   else 'is no folder'))

@@ -23,7 +23,7 @@ import subprocess
 
 from rocon_uri.cli.display import print_json
 from rocon_uri.cli.packages import (
-    PackageReport, Packages, add_package_path, escape_unencodable, package_path)
+    PackageReport, add_package_path, escape_unencodable, workspace)
 from rocon_uri.sources.wording import quoted_path
 
 TYPE_CHECKING = False
@@ -47,8 +47,8 @@ def main(args: argparse.Namespace) -> int:
     from rocon_uri.spec_graph import dot_text, spec_graph   # here, since the others need it not
     escape_unencodable()
     report = PackageReport(args.json)
-    packages = Packages(package_path(args, report), report)
-    graph = spec_graph(packages.spec_index, packages.rapps)
+    exported = workspace(args, report)
+    graph = spec_graph(exported.spec_index, exported.rapps)
     if args.output is not None:
         _write(dot_text(graph) + '\n', args.output, report)
     elif not args.json:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.packages import (
-    PackageReport, Packages, add_package_path, escape_unencodable, package_path, shortened)
+    PackageReport, add_package_path, escape_unencodable, shortened, workspace)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def main(args: argparse.Namespace) -> int:
     """Do it, and return the exit status."""
     escape_unencodable()
     report = PackageReport(args.json)
-    index = Packages(package_path(args, report), report).spec_index
+    index = workspace(args, report).spec_index
     if args.json:
         print_json({'specs': [_as_json(spec) for spec in index.specs.values()],
                     'errors': report.errors})

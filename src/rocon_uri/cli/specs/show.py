@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.packages import (
-    PackageReport, Packages, add_package_path, escape_unencodable, package_path, printable)
+    PackageReport, add_package_path, escape_unencodable, printable, workspace)
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
@@ -41,7 +41,7 @@ def main(args: argparse.Namespace) -> int:
     """Do it, and return the exit status."""
     escape_unencodable()
     report = PackageReport(args.json)
-    index = Packages(package_path(args, report), report).spec_index
+    index = workspace(args, report).spec_index
     spec = index.specs.get(args.name)
     if spec is None:
         meant = _meant(args.name, index.names)

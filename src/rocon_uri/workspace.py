@@ -1,0 +1,114 @@
+"""
+All that some packages export, read once: specs, rapps and rules, and what is wrong with each.
+
+>>> workspace = read_workspace(['examples/workspace'])
+>>> 'cafe_rapps/serve' in workspace.rapps, workspace.faults
+(True, [])
+"""
+from __future__ import annotations
+
+from typing import Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Tuple, Union
+
+from capabilities.discovery import (
+    SpecIndex, spec_file_index_from_package_index, spec_index_from_spec_file_index)
+from capabilities.planning.faults import Fault
+from capabilities.planning.providers import find_cycles
+from capabilities.specs.common import InvalidSpec
+from capabilities.specs.interface import CapabilityInterface
+from capabilities.specs.provider import CapabilityProvider
+from capabilities.specs.semantic_interface import SemanticCapabilityInterface
+from rocon_uri.apps.rapp import Rapp
+from rocon_uri.apps.rapps import (
+    rapp_file_index_from_package_index, rapps_from_rapp_file_index, with_inheritance)
+from rocon_uri.sources.launch_file import LaunchFiles
+from rocon_uri.sources.packages import Package, PackageError, find_packages
+from rocon_uri.vocabulary import Vocabulary, vocabulary_of_packages
+
+__all__ = ['Workspace', 'load_workspace', 'read_workspace']
+
+Capability = Union[CapabilityInterface, SemanticCapabilityInterface]
+
+
+class Workspace(NamedTuple):
+    """What a set of packages exports."""
+
+    #: the packages by name
+    packages: Mapping[str, Package]
+    #: the capability specs
+    spec_index: SpecIndex
+    #: the interfaces and semantic interfaces among them by name
+    capabilities: Dict[str, Capability]
+    #: the providers among them by name
+    providers: Dict[str, CapabilityProvider]
+    #: the rapps by name, with what they inherit; those whose ancestors are at fault are left out
+    rapps: Dict[str, Rapp]
+    #: all rapps that can be read by name, with what their own files say
+    own_rapps: Dict[str, Rapp]
+    #: the cycle of each provider that depends on itself, through others or not, by its name
+    cycles: Dict[str, Fault]
+    #: the launch files that were looked at so far
+    launch_files: LaunchFiles
+    #: what this machine knows, and what the packages add
+    vocabulary: Vocabulary
+    #: What is wrong, in the order of packages, specs, rapps and rules: `PackageError`;
+    #: the errors of `spec_index_from_spec_file_index`; `InvalidRapp`; `YamlError` and `OSError`
+    faults: List[Exception]
+
+    def specs(self) -> Iterator[Tuple[str, Union[Capability, CapabilityProvider]]]:
+        """All specs, each as (path of its file, spec)."""
+        index = self.spec_index
+        for paths in index.interface_paths, index.semantic_interface_paths, index.provider_paths:
+            for name, path in paths.items():
+                yield path, self.capabilities.get(name) or self.providers[name]
+
+    def interface(self, name: str) -> Optional[CapabilityInterface]:
+        """
+        The interface of a name, as a client of it sees it.
+
+        :param str name: that of an interface or of a semantic interface
+        :returns: `CapabilityInterface`; None if there is none, or if it does not fit what it
+            redefines
+        """
+        capability = self.capabilities.get(name)
+        if not isinstance(capability, SemanticCapabilityInterface):
+            return capability
+        try:
+            return capability.resolve(self.spec_index.interfaces[capability.redefines])
+        except InvalidSpec:
+            return None
+
+
+def read_workspace(paths: Iterable[str]) -> Workspace:
+    """
+    All that the packages below some folders export.
+
+    :param paths: as `rocon_uri.sources.packages.find_packages` takes them
+    :returns: `Workspace`
+    """
+    faults: List[PackageError] = []
+    return load_workspace(find_packages(paths, faults), faults)
+
+
+def load_workspace(packages: Mapping[str, Package], faults: Iterable[Exception] = ()) -> Workspace:
+    """
+    All that packages export that were found already.
+
+    :param packages: as `rocon_uri.sources.packages.find_packages` returns them
+    :param faults: what is known to be wrong; the first faults of what is returned
+    :returns: `Workspace`
+
+    >>> load_workspace({}).rapps
+    {}
+    """
+    index, spec_faults = spec_index_from_spec_file_index(
+        spec_file_index_from_package_index(packages))
+    own_rapps, rapp_faults = rapps_from_rapp_file_index(
+        rapp_file_index_from_package_index(packages))
+    rapps, heirs_faults = with_inheritance(own_rapps.values())
+    vocabulary, rules_faults = vocabulary_of_packages(packages)
+    return Workspace(
+        packages=packages, spec_index=index,
+        capabilities={**index.interfaces, **index.semantic_interfaces}, providers=index.providers,
+        rapps=rapps, own_rapps=own_rapps, launch_files=LaunchFiles(), vocabulary=vocabulary,
+        cycles={name: fault for fault in find_cycles(index) for name in fault.cycle},
+        faults=[*faults, *spec_faults, *rapp_faults, *heirs_faults, *rules_faults])

@@ -1,0 +1,101 @@
+"""The walk that finds packages, and what is read of their manifests."""
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import List
+
+import pytest
+from capabilities.discovery import package_index_from_package_path
+from made_packages import make_package
+
+from rocon_uri.sources.packages import (
+    PackageError, as_package, find_packages, package_folders, package_from_manifest)
+
+ROOT_TAG = '<package format="2"><name>ours</name><export>%s</export></package>'
+
+
+def read(folder: Path, manifest: str) -> List[str]:
+    (folder / 'package.xml').write_text(manifest, encoding='utf-8')
+    return package_from_manifest(str(folder / 'package.xml')).files('rocon_app')
+
+
+@pytest.mark.parametrize('text, path', [
+    ('a.rapp', 'a.rapp'),
+    ('\n  rapps/a.rapp\n', 'rapps/a.rapp'),
+    ('a&amp;b.rapp', 'a&b.rapp'),
+    ('a<!-- of ours -->.rapp', 'a.rapp'),
+    ('<![CDATA[a&b.rapp]]>', 'a&b.rapp'),
+    ('${prefix}/a.rapp', 'a.rapp'),
+    ('a<b/>.rapp', 'a<b>.rapp'),
+])
+def test_the_text_of_an_export_is_what_the_parser_says(tmp_path: Path, text: str, path: str
+                                                       ) -> None:
+    manifest = ROOT_TAG % '<rocon_app>%s</rocon_app>' % text
+    assert read(tmp_path, manifest) == [str(tmp_path / path)]
+
+
+def test_the_text_of_a_package_of_catkin_is_the_same(tmp_path: Path) -> None:
+    make_package(tmp_path, 'ours', [('rocon_app', 'a&amp;b<!-- c -->.rapp')])
+    [package] = package_index_from_package_path([str(tmp_path)]).values()
+    assert as_package(package).files('rocon_app') == [str(tmp_path / 'ours' / 'a&b.rapp')]
+
+
+def test_an_export_knows_its_place_and_its_attributes(tmp_path: Path) -> None:
+    (tmp_path / 'package.xml').write_text(ROOT_TAG % '\n  <rocon_uri rules="${prefix}/a.yaml"/>')
+    package = package_from_manifest(str(tmp_path / 'package.xml'))
+    [export] = package.exports
+    assert (export.tag, export.line, export.column) == ('rocon_uri', 2, 3)
+    assert export.attributes == {'rules': '${prefix}/a.yaml'}
+    assert package.files('rocon_uri', 'rules') == [str(tmp_path / 'a.yaml')]
+    assert package.files('rocon_uri', 'other') == []
+
+
+@pytest.mark.parametrize('manifest, problem', [
+    ('<?xml version="1.0" encoding="foo"?>' + ROOT_TAG % '', "the encoding 'foo'"),
+    ('<package><name>a</name><name>b</name></package>', 'exactly one "name"'),
+    ('<package><name>a/b</name></package>', 'naming conventions'),
+    ('<package format="9"><name>a</name></package>', "format version '9'"),
+    ('<package><name>a</name>', 'not XML: no element found'),
+])
+def test_a_faulty_manifest_is_refused_in_one_line(tmp_path: Path, manifest: str, problem: str
+                                                  ) -> None:
+    with pytest.raises(PackageError) as caught:
+        read(tmp_path, manifest)
+    assert problem in caught.value.problem
+    assert str(caught.value).isprintable()
+
+
+@pytest.mark.parametrize('encoding', ['utf-8', 'UTF-8', 'ISO-8859-1', 'us-ascii'])
+def test_a_manifest_is_utf_8_whatever_it_says(tmp_path: Path, encoding: str) -> None:
+    manifest = '<?xml version="1.0" encoding="%s"?>' % encoding
+    assert read(tmp_path, manifest + ROOT_TAG % '<rocon_app>\xe9</rocon_app>') == [
+        str(tmp_path / '\xe9')]
+
+
+def test_a_folder_below_more_folders_than_python_recurses(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    make_package(tmp_path, 'ours')
+    monkeypatch.chdir(tmp_path)
+    for _ in range(1100):
+        os.mkdir('d')
+        os.chdir('d')
+    monkeypatch.chdir(tmp_path)
+    assert list(find_packages([str(tmp_path)])) == ['ours']
+    for _ in range(1100):   # pytest removes it by recursion
+        os.rename('d', 'e')
+        if os.path.isdir('e/d'):
+            os.rename('e/d', 'd')
+        os.rmdir('e')
+
+
+def test_the_folder_with_nosubdirs_counts_and_those_below_do_not(tmp_path: Path) -> None:
+    folder = make_package(tmp_path, 'ours')
+    (folder / 'rospack_nosubdirs').touch()
+    make_package(tmp_path / 'stack', 'theirs')
+    (tmp_path / 'stack' / 'rospack_nosubdirs').touch()
+    assert list(package_folders(str(tmp_path))) == [str(folder)]
+
+
+def test_a_path_that_no_folder_can_have(tmp_path: Path) -> None:
+    assert find_packages(['a\0b', str(tmp_path / 'gone'), '']) == {}
