@@ -89,3 +89,4 @@ def server(shared_server):
     for status in shared_server.statuses():
         if status.state != 'failed':
             shared_server.error('stop_capability', status.capability)
+    shared_server.wait_for_all_events()     # so that the next test does not see those of this one

@@ -30,6 +30,14 @@ signal.signal(signal.SIGTERM, signal.SIG_IGN)
 time.sleep(10000)
 ''' % sys.executable
 
+#: the server, which writes what its threads do when it is asked to
+SERVER = '''\
+import faulthandler, signal
+faulthandler.register(signal.SIGUSR1)
+from capabilities.server import main
+raise SystemExit(main())
+'''
+
 #: seconds that a test waits for what has to come, on a machine that has other things to do
 PATIENCE = 40.0
 
@@ -165,8 +173,7 @@ class Server:
         """Start the process, and wait for nothing."""
         with open(self.log, 'ab') as log:
             self.process = subprocess.Popen(
-                [sys.executable, '-c', 'from capabilities.server import main\n'
-                 'raise SystemExit(main())', str(self.robot.workspace),
+                [sys.executable, '-c', SERVER, str(self.robot.workspace),
                  '__name:=' + self.name.rpartition('/')[2], *self.arguments],
                 env=dict(self.robot.server_environment,
                          ROS_NAMESPACE=self.name.rpartition('/')[0] or '/'),
@@ -191,7 +198,14 @@ class Server:
         """End the process; its exit status is returned."""
         if self.process.poll() is None:
             self.process.send_signal(number)
-        return self.process.wait(PATIENCE)
+        try:
+            return self.process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            self.process.send_signal(signal.SIGUSR1)
+            time.sleep(1.0)     # in which it writes what each thread does
+            self.process.kill()
+            self.process.wait()
+            raise AssertionError(self.log.read_text()) from None
 
     def is_ready(self):
         assert self.process.poll() is None, self.log.read_text()
@@ -239,6 +253,8 @@ class Server:
         import rospy
         from bondpy import bondpy
         bond = bondpy.Bond(self.name + '/bonds', self.call('establish_bond').bond_id)
+        # All bonds of a process share a queue. Those of several clients would not.
+        bond.pub.impl.set_queue_size(1000)
         bond.start()
         assert bond.wait_until_formed(rospy.Duration(10))
         return bond
@@ -276,6 +292,10 @@ class Server:
         events = [(event.type.strip('"'), event.capability.rpartition('/')[2])
                   for event in list(self.events)]
         return [event for event in events if not wanted or event[0] in wanted]
+
+    def wait_for_all_events(self):
+        """Wait until all that was launched, and has ended, is known to have terminated."""
+        eventually(lambda: len(self.types('launched')) == len(self.types('terminated')))
 
     def processes(self):
         """What it started and what still runs: command lines by process id."""

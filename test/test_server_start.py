@@ -23,7 +23,6 @@ def test_late_subscribers_are_told_that_it_is_ready(server):
         server.name + '/events') is None)
     server._subscribers.insert(0, rospy.Subscriber(
         server.name + '/events', CapabilityEvent, server.events.append))
-    server.events = events
     server._subscribers[0].impl.add_callback(events.append, None)
     event = eventually(lambda: events and events[0])
     assert (event.type, event.capability, event.header.stamp.to_sec()) == (

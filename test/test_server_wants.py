@@ -160,6 +160,22 @@ def test_nothing_on_the_events_topic_changes_the_server(server):
     publisher.unregister()
 
 
+def test_many_clients_keep_their_bonds(server):
+    """The heartbeats of all bonds go over one connection to each client."""
+    import rospy
+    clients = []
+    begins = [threading.Thread(target=lambda: clients.append(server.bond())) for _ in range(20)]
+    for begin in begins:
+        begin.start()
+    for begin in begins:
+        begin.join()
+    # longer than a bond lives without a heartbeat
+    assert not clients[0].wait_until_broken(rospy.Duration(6))
+    assert [bond.is_broken() for bond in clients] == 20 * [False]
+    for bond in clients:
+        bond.shutdown()
+
+
 def test_a_client_killed_before_its_bond_formed_is_noticed(server):
     """A27: F10"""
     bond_id = server.call('establish_bond').bond_id

@@ -11,6 +11,10 @@ import rospy
 
 __all__ = ['Bonds']
 
+#: the heartbeats that may wait for being sent to one client; all bonds share the topic, and those
+#: that beat at the same time would push each other out of a shorter queue
+_QUEUE_SIZE = 1000
+
 
 class Bonds:
     """
@@ -29,7 +33,7 @@ class Bonds:
         self._lock = threading.Lock()
         self._bonds: Dict[str, bondpy.Bond] = {}
         # With these the topic stays connected, so that no bond has to wait for the master.
-        self._publisher = rospy.Publisher(topic, Status, queue_size=10)
+        self._publisher = rospy.Publisher(topic, Status, queue_size=_QUEUE_SIZE)
         self._subscriber = rospy.Subscriber(topic, Status, lambda message: None)
 
     @staticmethod
@@ -41,6 +45,7 @@ class Bonds:
         """Begin a bond of a new id."""
         bond = bondpy.Bond(self._topic, bond_id, lambda: self._broken(bond_id),
                            lambda: self._formed(bond_id))
+        self._publisher.impl.set_queue_size(_QUEUE_SIZE)    # which the bond has set to 1
         with self._lock:
             self._bonds[bond_id] = bond
         bond.start()

@@ -63,6 +63,7 @@ class CapabilityServer:
         self.__has_ended = False
         # A signal handler may write to a pipe; it must not touch what the main thread may hold.
         self.__wake_up_read, self.__wake_up = os.pipe()
+        os.set_blocking(self.__wake_up, False)
 
     def spin(self) -> int:
         """
@@ -80,7 +81,15 @@ class CapabilityServer:
             self.shutdown()
         return self.__exit_status or 0
 
-    def handle_signal(self, number: int, frame: object) -> None:
+    def handle_signals(self) -> None:
+        """Have `spin` end on SIGINT and SIGTERM."""
+        # The system may hand a signal to any thread. Without this Python would not call the handler
+        # before the main thread wakes up.
+        signal.set_wakeup_fd(self.__wake_up, warn_on_full_buffer=False)
+        for number in signal.SIGINT, signal.SIGTERM:
+            signal.signal(number, self.__handle_signal)
+
+    def __handle_signal(self, number: int, frame: object) -> None:
         """Have `spin` end; at once (by SystemExit) as long as nothing was started."""
         if not self.__has_started:
             raise SystemExit(0)
@@ -90,7 +99,10 @@ class CapabilityServer:
         """Have `spin` end, and return at once; for signal handlers too."""
         if self.__exit_status is None:
             self.__exit_status = exit_status
-        os.write(self.__wake_up, b'.')
+        try:
+            os.write(self.__wake_up, b'.')
+        except BlockingIOError:
+            pass        # it has been written often enough
 
     def shutdown(self) -> None:
         """End all that was started, and wait for that."""
@@ -154,7 +166,8 @@ class CapabilityServer:
         _logger.info('capability server ready')
         if self.__exit_status is None:
             runtime.autostart(parameters.autostart)
-        os.read(self.__wake_up_read, 1)
+        while self.__exit_status is None:
+            os.read(self.__wake_up_read, 1)
 
     def __reload(self) -> Catalogue:
         return read_catalogue(self.__package_paths, self.__parameters)
@@ -224,8 +237,7 @@ def main(sysargv: Optional[List[str]] = None) -> int:
     except InvalidConfiguration as error:
         _log_faults(error)
         return _finish(_BAD_CONFIGURATION)
-    for number in signal.SIGINT, signal.SIGTERM:
-        signal.signal(number, server.handle_signal)
+    server.handle_signals()
     try:
         status = server.spin()
     except SystemExit as end:
