@@ -183,8 +183,8 @@ def _kill_all(found: Dict[int, Marked]) -> None:
     """
     Send SIGKILL to the groups of these processes.
 
-    Their groups hold nothing else, since each launch begins a session. A process that forks
-    faster than anybody can look is only caught by its group.
+    Their groups hold nothing else, since each launch begins a session. What forked and exited
+    since the look at /proc is caught by its group.
     """
     for process in found.values():
         try:
