@@ -104,6 +104,15 @@ def test_a_bond_that_the_caller_breaks_frees_what_it_used(server, client):
     eventually(lambda: not wanted(server))
 
 
+def test_after_a_broken_bond_a_use_makes_a_new_one(server, client):
+    client.use_capability('robot/Base')
+    client._bond.break_bond()
+    eventually(lambda: client._bond.is_broken() and not wanted(server))
+    client.use_capability('robot/Camera')
+    assert server.running() == ['Camera']
+    client.free_capability('robot/Camera')
+
+
 def test_errors_of_the_server_are_raised(client):
     with pytest.raises(rospy.ServiceException, match="Capability 'robot/Nope' not found"):
         client.use_capability('robot/Nope')

@@ -159,8 +159,9 @@ class CapabilitiesClient:
             self._break_bond()
             if not self.wait_for_services(timeout, ['establish_bond']):
                 return None
-            bond_id: str = self._services['establish_bond']().bond_id
+            bond_id: str = self._call('establish_bond').bond_id
             bond = bondpy.Bond('%s/bonds' % self._name, bond_id, lambda: self._broken(bond_id))
+            bond.set_formed_callback(lambda: _formed(bond))
             bond.start()
             if not bond.wait_until_formed(None if timeout is None else rospy.Duration(timeout)):
                 bond.shutdown()
@@ -186,11 +187,13 @@ class CapabilitiesClient:
         :raises rospy.ServiceException: if the server refuses; the text says why
         """
         with self._bond_lock:
+            if self._bond is not None and self._bond.is_broken():
+                self._break_bond()
             if self._bond_id is None and self.establish_bond(timeout) is None:
                 raise CannotEstablishBondException()
             bond_id = self._bond_id
         self._wait_for('use_capability', timeout)
-        self._services['use_capability'](capability_interface, preferred_provider or '', bond_id)
+        self._call('use_capability', capability_interface, preferred_provider or '', bond_id)
         with self._lock:
             self._uses[capability_interface] += 1
         if self._lost is not None:
@@ -220,7 +223,7 @@ class CapabilitiesClient:
             _logger.error("capability '%s' is not used by this client", capability_interface)
         self._wait_for('free_capability', timeout)
         try:
-            self._services['free_capability'](capability_interface, self._bond_id or '')
+            self._call('free_capability', capability_interface, self._bond_id or '')
         except rospy.ServiceException as error:
             text = str(error)
             if 'Cannot free Capability' in text and 'because it is not running' in text:
@@ -243,6 +246,11 @@ class CapabilitiesClient:
     def _wait_for(self, service: str, timeout: Optional[float]) -> None:
         if not self.wait_for_services(timeout, [service]):
             raise ServiceNotAvailableException(self._services[service].resolved_name)
+
+    def _call(self, service: str, *arguments: object) -> rospy.Message:
+        """Call a service, by a proxy of this call's own: threads that share one mix up answers."""
+        name = self._services[service].resolved_name
+        return rospy.ServiceProxy(name, _SERVICES[service])(*arguments)
 
     def _break_bond(self) -> None:
         """Break the bond on purpose; what it used is not lost, but freed."""
@@ -275,3 +283,10 @@ class CapabilitiesClient:
             except rospy.ServiceException:      # the server has just gone again
                 pass
             self._ended.wait(_RETRY / 10)
+
+
+def _formed(bond: bondpy.Bond) -> None:
+    """The server has answered. bondpy would notice its end only after its next heartbeat."""
+    with bond.lock:
+        if bond.sm.getState().getName() == 'SM.Alive':
+            bond.heartbeat_timer.reset()
