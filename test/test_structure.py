@@ -1,0 +1,118 @@
+"""The modules import each other one way only, and say ``Any`` where data is unread only."""
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+from typing import Dict, Iterator, List, Set, Tuple
+
+import pytest
+from sources import ROOT
+
+pytestmark = pytest.mark.skipif(not (ROOT / 'src').is_dir(), reason='there is no source here')
+
+MODULES: Dict[str, Path] = {}
+for _path in sorted((ROOT / 'src').rglob('*.py')):
+    _name = '.'.join(_path.relative_to(ROOT / 'src').with_suffix('').parts)
+    MODULES[_name[:-len('.__init__')] if _name.endswith('.__init__') else _name] = _path
+
+#: Levels of rocon_uri: a module imports from its own level and those above it in this list.
+LEVELS = (
+    ('sources',),
+    ('exceptions', 'grammar', 'regular', 'exported_rules'),
+    ('field_vocabulary', 'vocabulary', 'name_pattern'),
+    ('parts', 'field'),
+    ('uri',),
+    ('compatibility', 'name_index', 'messages', 'platform'),
+    ('resource_index',),
+    ('resource_database',),
+    ('resource_directory',),
+    ('apps',),
+    ('workspace', 'spec_graph'),
+    ('lint',),
+    ('cli', 'directory_node'),
+)
+LEVEL_OF = {name: level for level, names in enumerate(LEVELS) for name in names}
+#: one line each that keeps an earlier path importable
+EARLIER_PATHS = {'rocon_uri.rapps', 'rocon_uri.ros_names', 'rocon_uri.yaml_source',
+                 'capabilities.faults', 'capabilities.providers'}
+RUNTIME = {'server', 'client', 'service_discovery', 'launch_manager'}
+
+#: imports that are still to be removed
+KNOWN_CIRCLES: Set[Tuple[str, ...]] = {('rocon_uri.field', 'rocon_uri.uri')}
+KNOWN_ARROWS: Set[Tuple[str, str]] = {('rocon_uri.field', 'rocon_uri.uri')}
+
+ANY_AT_MOST = 108
+
+
+def imported(module: str) -> Iterator[str]:
+    """The modules of ours that one imports, anywhere in it."""
+    package = module if MODULES[module].name == '__init__.py' else module.rpartition('.')[0]
+    for node in ast.walk(ast.parse(MODULES[module].read_text(encoding='utf-8'))):
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            above = package.split('.')[:len(package.split('.')) - node.level + 1]
+            base = '.'.join((above if node.level else []) + ([node.module] if node.module else []))
+            names = ['%s.%s' % (base, alias.name) for alias in node.names] + [base]
+        else:
+            continue
+        for index, name in enumerate(names):
+            # the package of what is imported counts only where a name of its own is meant
+            if name in MODULES and not (isinstance(node, ast.ImportFrom) and index == len(names) - 1
+                                        and all(other in MODULES for other in names[:-1])):
+                yield name
+
+
+GRAPH: Dict[str, List[str]] = {module: sorted(set(imported(module)) - {module})
+                               for module in MODULES}
+
+
+def test_there_is_no_circle() -> None:
+    reached: Dict[str, Set[str]] = {}
+    for module in GRAPH:
+        found: Set[str] = set()
+        waiting = [module]
+        while waiting:
+            for below in GRAPH[waiting.pop()]:
+                if below not in found:
+                    found.add(below)
+                    waiting.append(below)
+        reached[module] = found
+    circles = {tuple(sorted(other for other in reached[module] if module in reached[other]))
+               for module in reached if module in reached[module]}
+    assert circles <= KNOWN_CIRCLES
+
+
+def is_forbidden(module: str, below: str) -> bool:
+    package, _, rest = module.partition('.')
+    other, _, below_rest = below.partition('.')
+    if other == 'capabilities' and below_rest in RUNTIME and package != 'capabilities':
+        return not rest.startswith(('cli', 'directory_node'))
+    if package == 'capabilities':
+        return other != 'capabilities' and not below_rest.startswith('sources.')
+    if module in EARLIER_PATHS or not rest:
+        return False
+    level = LEVEL_OF[rest.partition('.')[0]]
+    if other == 'capabilities':     # the pure part, on which apps stands
+        return level < LEVEL_OF['apps']
+    return not below_rest or LEVEL_OF[below_rest.partition('.')[0]] > level
+
+
+def test_arrows_run_one_way() -> None:
+    forbidden = {(module, below) for module in GRAPH for below in GRAPH[module]
+                 if is_forbidden(module, below)}
+    assert forbidden <= KNOWN_ARROWS
+
+
+def test_every_module_has_a_level() -> None:
+    names = {module.split('.')[1] for module in MODULES
+             if module.startswith('rocon_uri.') and module not in EARLIER_PATHS}
+    assert names <= set(LEVEL_OF)
+
+
+def test_any_is_for_what_is_unread() -> None:
+    found = sum(len(re.findall(r'\bAny\b', line)) for path in MODULES.values()
+                for line in path.read_text(encoding='utf-8').splitlines()
+                if not re.match(r'\s*(from \S+ )?import ', line))
+    assert found <= ANY_AT_MOST
