@@ -7,26 +7,46 @@ digraph capabilities {
 """
 from __future__ import annotations
 
-from collections import namedtuple
+from typing import Dict, List, Mapping, NamedTuple, Optional
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import List, Mapping
     from capabilities.spec_index import SpecIndex
     from rocon_uri.apps.rapp import Rapp
 
 __all__ = ['Edge', 'Node', 'SpecGraph', 'dot_text', 'spec_graph']
 
-#: What is drawn: its name (str) and its kind, a key of `_NODE_STYLES`.
-Node = namedtuple('Node', 'name kind')
 
-#: An arrow from one id to another; its kind, a key of `_EDGE_STYLES`, and for a dependency the name
-#: of the preferred provider, None if there is none.
-Edge = namedtuple('Edge', 'start end kind preferred')
+class Node(NamedTuple):
+    """What is drawn."""
 
-#: ``nodes`` is a dict of `Node` by id, which is the name, with a # before that of an app, as in a
-#: rocon URI; ``edges`` a list of `Edge`. What is named and is not there is of the kind 'missing'.
-SpecGraph = namedtuple('SpecGraph', 'nodes edges')
+    #: its name, ``package/name``
+    name: str
+    #: a key of `_NODE_STYLES`
+    kind: str
+
+
+class Edge(NamedTuple):
+    """An arrow."""
+
+    #: the id of the node that it starts at
+    start: str
+    #: the id of the node that it ends at
+    end: str
+    #: a key of `_EDGE_STYLES`
+    kind: str
+    #: for a dependency the name of the preferred provider, if there is one
+    preferred: Optional[str]
+
+
+class SpecGraph(NamedTuple):
+    """What depends on what. What is named and does not exist is a node of the kind 'missing'."""
+
+    #: the nodes by id: the name, with a # before that of an app, as in a rocon URI
+    nodes: Dict[str, Node]
+    #: the arrows
+    edges: List[Edge]
+
 
 _NODE_STYLES = {
     'interface': 'shape=box, style=filled, fillcolor="#cfe2f3"',
