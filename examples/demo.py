@@ -53,7 +53,7 @@ def wait_for(uses: int, state: str = 'running', patience: float = 60.0) -> None:
             if found == ([(uses, state)] if uses else []):
                 return
         time.sleep(0.2)
-    raise SystemExit('the camera should have %d uses by now' % uses)
+    raise AssertionError('the camera should have %d uses by now' % uses)
 
 
 def start_user() -> 'subprocess.Popen[str]':
@@ -62,7 +62,7 @@ def start_user() -> 'subprocess.Popen[str]':
                             stderr=subprocess.DEVNULL, universal_newlines=True)
     assert user.stdout is not None
     if not user.stdout.readline():
-        raise SystemExit('a user could not use the camera')
+        raise AssertionError('a user could not use the camera')
     return user
 
 
@@ -97,14 +97,18 @@ def main() -> int:
                           ROS_HOME=folder, ROS_LOG_DIR=folder)
         os.environ.pop('ROS_HOSTNAME', None)
         os.environ.pop('ROS_NAMESPACE', None)
-        with open(os.path.join(folder, 'server.log'), 'w') as log:
+        with open(os.path.join(folder, 'server.log'), 'w+') as log:
             server = subprocess.Popen(['roslaunch', '-p', str(port), 'capabilities', 'demo.launch'],
                                       stdout=log, stderr=log)
-        try:
-            tour()
-        finally:
-            server.send_signal(signal.SIGINT)
-            server.wait()
+            try:
+                tour()
+            except AssertionError as error:
+                log.seek(0)
+                print('%s; the server says:\n%s' % (error, log.read()), file=sys.stderr)
+                return 1
+            finally:
+                server.send_signal(signal.SIGINT)
+                server.wait()
     return 0
 
 
