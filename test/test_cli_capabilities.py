@@ -7,9 +7,17 @@ import subprocess
 import sys
 
 import pytest
+from made_packages import make_package
 from sources import ROOT
 
 COMMAND = [sys.executable, str(ROOT / 'scripts' / 'rocon_uri'), 'capabilities']
+APP = '''
+display: Patrol
+description: goes round
+compatibility: rocon:/pr2
+launch: patrol.launch
+required_capabilities: [{name: robot/Nav}, {name: robot/Camera}]
+'''
 NO_MASTER = 'http://127.0.0.1:1'
 
 
@@ -121,6 +129,56 @@ def test_the_shell_completes_names_from_the_server(server):
             server.robot.server_environment, COMP_LINE=line, COMP_POINT=str(len(line)),
             _ARGCOMPLETE='1', _ARGCOMPLETE_IFS=' '))
     assert done.stdout.split() == ['robot/Camera']
+
+
+@pytest.fixture
+def packages(server, tmp_path):
+    """The packages of the robot, and an app that needs two of its capabilities."""
+    package = make_package(tmp_path, 'apps', [('rocon_app', 'patrol.rapp')], patrol_rapp=APP)
+    (package / 'patrol.launch').write_text('<launch/>')
+    return ['--package-path', '%s:%s' % (server.robot.workspace, tmp_path), '--json',
+            '--running', '--server', server.name]
+
+
+def answer(server, *arguments):
+    done = subprocess.run([*COMMAND[:2], *arguments], env=server.robot.server_environment,
+                          stdout=subprocess.PIPE, universal_newlines=True)
+    return json.loads(done.stdout)
+
+
+def test_apps_say_which_of_their_capabilities_run(server, packages):
+    asked = ['apps', '--robot', 'rocon:/pr2/bob', '--all', *packages]
+    assert answer(server, *asked)['apps'][0]['running'] == {
+        'robot/Nav': None, 'robot/Camera': None}
+    server.start_capability('Nav')
+    server.wait_for('Nav', 'running')
+    assert answer(server, *asked)['apps'][0]['running'] == {
+        'robot/Nav': 'robot/nav', 'robot/Camera': None}
+    asked.remove('--json')
+    done = subprocess.run([*COMMAND[:2], *asked], env=server.robot.server_environment,
+                          stdout=subprocess.PIPE, universal_newlines=True)
+    assert '      robot/Nav runs by robot/nav\n      robot/Camera does not run\n' in done.stdout
+
+
+def test_the_graph_shows_what_runs(server, packages):
+    server.start_capability('Nav')
+    server.wait_for('Nav', 'running')
+    nodes = answer(server, 'specs', 'graph', *packages)['nodes']
+    assert {node['id'] for node in nodes if node['running']} == {
+        'robot/Base', 'robot/base', 'robot/Nav', 'robot/nav'}
+    packages.remove('--json')
+    done = subprocess.run([*COMMAND[:2], 'specs', 'graph', *packages],
+                          env=server.robot.server_environment, stdout=subprocess.PIPE,
+                          universal_newlines=True)
+    outlined = [line.split('"')[1] for line in done.stdout.splitlines() if 'penwidth' in line]
+    assert outlined == ['robot/Base', 'robot/Nav', 'robot/base', 'robot/nav']
+
+
+@pytest.mark.parametrize('verb', [['apps', '--robot', 'rocon:/pr2'], ['specs', 'graph']])
+def test_what_runs_is_not_known_without_a_server(server, packages, verb):
+    packages[-1] = 'nobody'
+    assert "no capability server '/nobody'" in answer(
+        server, *verb, *packages)['errors'][-1]['message']
 
 
 @pytest.mark.parametrize('arguments', [['status'], ['list'], ['start', 'a/B'], ['watch']])

@@ -60,24 +60,24 @@ class CapabilityNotRunningException(Exception):
     """
     A capability is to be freed that does not run.
 
-    :param str capability: its name; the attribute has the same name
+    :param str interface: its name; the attribute has the same name
     """
 
-    def __init__(self, capability: str) -> None:
-        super().__init__("capability '%s' is not running" % capability)
-        self.capability = capability
+    def __init__(self, interface: str) -> None:
+        super().__init__("capability '%s' is not running" % interface)
+        self.interface = interface
 
 
 class CapabilityNotInUseException(Exception):
     """
     A capability is to be freed that this client does not use.
 
-    :param str capability: its name; the attribute has the same name
+    :param str interface: its name; the attribute has the same name
     """
 
-    def __init__(self, capability: str) -> None:
-        super().__init__("capability '%s' is not used by this client" % capability)
-        self.capability = capability
+    def __init__(self, interface: str) -> None:
+        super().__init__("capability '%s' is not used by this client" % interface)
+        self.interface = interface
 
 
 class CapabilitiesClient:

@@ -7,7 +7,7 @@ digraph capabilities {
 """
 from __future__ import annotations
 
-from typing import Dict, List, Mapping, NamedTuple, Optional
+from typing import Collection, Dict, List, Mapping, NamedTuple, Optional
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -56,6 +56,7 @@ _NODE_STYLES = {
     'virtual app': 'shape=component, style="filled,dashed", fillcolor="#f3f3f3"',
     'missing': 'shape=box, style=dashed, color="#cc0000", fontcolor="#cc0000"',
 }
+_RUNNING = ', penwidth=3, color="#38761d"'
 _EDGE_STYLES = {
     'implements': 'arrowhead=empty',
     'redefines': 'arrowhead=empty, style=dashed',
@@ -101,11 +102,13 @@ def spec_graph(spec_index: SpecIndex, rapps: Mapping[str, Rapp]) -> SpecGraph:
     return SpecGraph(nodes, edges)
 
 
-def dot_text(graph: SpecGraph) -> str:
+def dot_text(graph: SpecGraph, running: Collection[str] = ()) -> str:
     """
     The graph in the language of graphviz.
 
     :param SpecGraph graph: what to draw
+    :param running: collection of str, the names of the capabilities and providers that run, which
+        have a thick green outline
     :returns: str, the content of a ``.dot`` file
 
     >>> print(dot_text(SpecGraph({'ours/Legs': Node('ours/Legs', 'interface')}, [])))
@@ -122,7 +125,8 @@ def dot_text(graph: SpecGraph) -> str:
     for identity, node in graph.nodes.items():
         package, _, own_name = node.name.rpartition('/')
         lines.append('  "%s" [label="%s\\n%s", %s];' % (
-            _escaped(identity), _escaped(own_name), _escaped(package), _NODE_STYLES[node.kind]))
+            _escaped(identity), _escaped(own_name), _escaped(package),
+            _NODE_STYLES[node.kind] + _RUNNING * (identity in running)))
     for edge in graph.edges:
         label, style = edge.kind, _EDGE_STYLES[edge.kind]
         if edge.preferred is not None:

@@ -18,6 +18,7 @@ Exit status: 0 if an app runs; 1 if none does; 2 if the robot, a folder or a fil
 was bad, though all else is judged, even for a robot that is not registered
 JSON: {"robot": URI, "apps": [{"name", "display", "description", "compatibility",
 "file", "launch", "runs": BOOL, "virtual": BOOL, "providers": [NAME, ...],
+"running": {CAPABILITY: PROVIDER, ...},
 "reasons": [{"kind", "text", "fields", "fault"}, ...]}, ...],
 "errors": [ERROR, ...]}
 with the ID of a reason as its kind, providers in the order in which to start
@@ -32,6 +33,7 @@ from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.given import GivenURI
 from rocon_uri.cli.packages import (
     PackageReport, add_package_path, escape_unencodable, printable, shortened, workspace)
+from rocon_uri.cli.running import add_running, what_runs
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 from rocon_uri.platform import (
@@ -62,6 +64,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--ignore', metavar='ID', type=_reason_id, action='append', default=[],
                         help='leave reasons of this kind out, as where apps are installed '
                              'elsewhere (may be repeated)')
+    add_running(parser, 'also which of the capabilities that an app requires run, and by which '
+                        'provider')
 
 
 def _reason_id(text: str) -> str:
@@ -84,15 +88,17 @@ def main(args: argparse.Namespace) -> int:
     if robot is None or defaults is None:
         return report.status
     from rocon_uri.apps.rapps import runnable    # here, since it loads YAML
+    running = what_runs(args, report)
     verdicts = [runnable(rapp, robot.uri, exported.spec_index, defaults, exported.launch_files,
                          args.ignore)
                 for rapp in exported.rapps.values()]
     if args.json:
         print_json({'robot': robot.as_json(),
-                    'apps': [_as_json(verdict) for verdict in verdicts if verdict or args.all],
+                    'apps': [_as_json(verdict, running)
+                             for verdict in verdicts if verdict or args.all],
                     'errors': report.errors})
     else:
-        _show(robot, verdicts, args.all)
+        _show(robot, verdicts, args.all, running)
     robot.mention_one_slash()
     return report.status or (0 if any(verdicts) else 1)
 
@@ -130,7 +136,8 @@ def _read_defaults(path: Optional[str], report: PackageReport) -> Optional[Dict[
         return None
 
 
-def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool) -> None:
+def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool,
+          running: Optional[Dict[str, str]]) -> None:
     paint = painter()
     runs = [verdict for verdict in verdicts if verdict]
     virtual = [verdict for verdict in verdicts
@@ -145,10 +152,12 @@ def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool) -> None:
         print('  ' + _line(verdict, width, 'green'))
         if show_all and verdict.providers:
             print('      with %s' % ', '.join(verdict.providers))
+        _show_running(verdict, running)
     if show_all and others:
         print('and cannot run:')
         for verdict in others:
             print('  ' + _line(verdict, width, 'red'))
+            _show_running(verdict, running)
             for reason in verdict.reasons[:_REASONS_SHOWN]:
                 _show_reason(reason)
             if len(verdict.reasons) > _REASONS_SHOWN:
@@ -156,6 +165,19 @@ def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool) -> None:
     if show_all and virtual:
         print('Virtual, as parents of others: %s'
               % ', '.join(printable(verdict.rapp.name) for verdict in virtual))
+
+
+def _show_running(verdict: Verdict, running: Optional[Dict[str, str]]) -> None:
+    for capability, provider in (_running_of(verdict, running) or {}).items():
+        print('      %s %s' % (printable(capability), 'does not run' if provider is None
+                               else 'runs by %s' % printable(provider)))
+
+
+def _running_of(verdict: Verdict, running: Optional[Dict[str, str]]
+                ) -> Optional[Dict[str, Optional[str]]]:
+    """The provider that runs each capability of an app, None for none."""
+    return None if running is None else {
+        needed.name: running.get(needed.name) for needed in verdict.rapp.required_capabilities}
 
 
 def _line(verdict: Verdict, width: int, style: str) -> str:
@@ -172,13 +194,14 @@ def _show_reason(reason: Reason) -> None:
             print('        ' + painter()(line, 'faint'))
 
 
-def _as_json(verdict: Verdict) -> Dict[str, Any]:
+def _as_json(verdict: Verdict, running: Optional[Dict[str, str]]) -> Dict[str, Any]:
     rapp = verdict.rapp
     return {
         'name': rapp.name, 'display': rapp.display, 'description': rapp.description,
         'compatibility': rapp.compatibility, 'file': rapp.path,
         'launch': rapp.files.get('launch'), 'runs': bool(verdict),
         'virtual': not rapp.is_implementation, 'providers': list(verdict.providers),
+        'running': _running_of(verdict, running),
         'reasons': [{
             'kind': reason.id, 'text': str(reason),
             'fields': _fields(reason),

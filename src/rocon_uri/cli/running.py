@@ -8,10 +8,13 @@ from rocon_uri.sources.wording import quoted
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Any, List
+    from rocon_uri.cli.packages import PackageReport
+    from typing import Any, Dict, List, Optional
 
-__all__ = ['Refused', 'RunningServer', 'Unreachable', 'add_server', 'capability_names']
+__all__ = ['Refused', 'RunningServer', 'Unreachable', 'add_running', 'add_server',
+           'capability_names', 'what_runs']
 
+_RUNNING = ('launching', 'running', 'degraded')    # the states of what is there for who uses it
 _TIMEOUT = 1.5      # seconds for the master, and for the server; a person waits no longer
 
 
@@ -27,6 +30,30 @@ def add_server(parser: argparse.ArgumentParser) -> None:
     """Let a verb take ``--server``."""
     parser.add_argument('--server', metavar='NAME', default='capability_server',
                         help='the node name of the server (default: capability_server)')
+
+
+def add_running(parser: argparse.ArgumentParser, help_text: str) -> None:
+    """Let a verb that need not ask a server do so: ``--running``."""
+    parser.add_argument('--running', action='store_true', help=help_text)
+    add_server(parser)
+
+
+def what_runs(args: argparse.Namespace, report: PackageReport) -> Optional[Dict[str, str]]:
+    """
+    What runs on the server, where a verb was asked to say so.
+
+    :param args: those of the verb, which took `add_running`
+    :param report: is told if the server cannot be asked
+    :returns: dict of str, the provider by the name of the capability; None if nobody asked for it,
+        or if there is no server
+    """
+    if not args.running:
+        return None
+    try:
+        return RunningServer(args.server).running()
+    except (Unreachable, Refused) as error:
+        report.bad(str(error))
+        return None
 
 
 def capability_names(parsed_args: argparse.Namespace, **others: object) -> List[str]:
@@ -85,6 +112,17 @@ class RunningServer:
             self._rospy.wait_for_service(self.name + marker, timeout=_TIMEOUT)
         except self._rospy.ROSException:
             raise Unreachable('capability server %s does not answer' % quoted(self.name)) from None
+
+    def running(self) -> Dict[str, str]:
+        """
+        What runs.
+
+        :returns: dict of str, the provider by the name of the capability
+        :raises Unreachable: if it cannot be asked any more
+        """
+        return {status.capability: status.provider
+                for status in self.call('get_status').status.capabilities
+                if status.state in _RUNNING}
 
     def call(self, service: str, *request: object) -> Any:
         """

@@ -8,13 +8,14 @@ Examples:
 Writes the language of graphviz. For a FILE that ends in .svg or .png, graphviz
 has to be installed. Blue boxes are interfaces, green ones semantic interfaces,
 yellow ellipses providers, the others apps (those that are only parents dashed);
-red is what is named and not there.
+red is what is named and not there. With --running, what runs has a thick green
+outline.
 
 Exit status: 0; 2 if the picture could not be made, or a folder or a file was bad,
 though the others are drawn
-JSON: {"nodes": [{"id", "name", "kind"}, ...], "edges": [{"from", "to", "kind",
-"preferred"}, ...], "errors": [ERROR, ...]}, beside the picture if there is a FILE;
-an id is the name, with a # before that of an app
+JSON: {"nodes": [{"id", "name", "kind", "running": BOOL}, ...], "edges":
+[{"from", "to", "kind", "preferred"}, ...], "errors": [ERROR, ...]}, beside the
+picture if there is a FILE; an id is the name, with a # before that of an app
 """
 from __future__ import annotations
 
@@ -24,6 +25,7 @@ import subprocess
 from rocon_uri.cli.display import print_json
 from rocon_uri.cli.packages import (
     PackageReport, add_package_path, escape_unencodable, workspace)
+from rocon_uri.cli.running import add_running, what_runs
 from rocon_uri.sources.wording import quoted_path
 
 TYPE_CHECKING = False
@@ -40,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_package_path(parser)
     parser.add_argument('--output', metavar='FILE',
                         help='a file that ends in .dot, .svg or .png (default: standard output)')
+    add_running(parser, 'draw what runs on a capability server in green')
 
 
 def main(args: argparse.Namespace) -> int:
@@ -49,13 +52,16 @@ def main(args: argparse.Namespace) -> int:
     report = PackageReport(args.json)
     exported = workspace(args, report)
     graph = spec_graph(exported.spec_index, exported.rapps)
+    running = what_runs(args, report) or {}
+    text = dot_text(graph, {*running, *running.values()})
     if args.output is not None:
-        _write(dot_text(graph) + '\n', args.output, report)
+        _write(text + '\n', args.output, report)
     elif not args.json:
-        print(dot_text(graph))
+        print(text)
     if args.json:
         print_json({
-            'nodes': [{'id': identity, 'name': node.name, 'kind': node.kind}
+            'nodes': [{'id': identity, 'name': node.name, 'kind': node.kind,
+                       'running': node.name in running or node.name in running.values()}
                       for identity, node in graph.nodes.items()],
             'edges': [{'from': edge.start, 'to': edge.end, 'kind': edge.kind,
                        'preferred': edge.preferred} for edge in graph.edges],
