@@ -112,12 +112,19 @@ class GraphAgainstModel(RuleBasedStateMachine):
     stopping processes depend on.
     """
 
+    def __init__(self):
+        super().__init__()
+        self.set_up(False, {name: [] for name in NAMES})    # older hypotheses ask before `begin`
+
     @initialize(keep=st.booleans(), data=st.data())
     def begin(self, keep, data):
         dependencies = {}
         for index, name in enumerate(NAMES):
             dependencies[name] = data.draw(
                 st.lists(st.sampled_from(NAMES[:index]), unique=True, max_size=3)) if index else []
+        self.set_up(keep, dependencies)
+
+    def set_up(self, keep, dependencies):
         self.keep = keep
         self.world = World(dependencies, keep)
         self.started = set()
