@@ -78,7 +78,7 @@ def test_a_signal_before_anything_was_started_ends_it(robot):
     for number in range(ENDS):
         server = robot.server()
         server.start()
-        time.sleep(0.2 * number)
+        time.sleep(1.5 * number / ENDS)
         server.end()
         eventually(lambda server=server: server.processes() == {})
 
