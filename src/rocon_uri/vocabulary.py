@@ -102,7 +102,10 @@ class Vocabulary:
         :returns: Vocabulary, itself where it is open already
         """
         if self._opened is None:
-            self._opened = self if self.is_open else Vocabulary._of(self._fields, is_open=True)
+            with _lock:     # since two would be two different vocabularies
+                if self._opened is None:
+                    self._opened = (
+                        self if self.is_open else Vocabulary._of(self._fields, is_open=True))
         return self._opened
 
     def extended(self, rules: Any) -> 'Vocabulary':
