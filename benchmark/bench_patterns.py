@@ -5,8 +5,9 @@ import tracemalloc
 from measure import once
 
 from rocon_uri import PatternTooComplex, RoconURIValueError
+from rocon_uri.regular.inclusion import includes
+from rocon_uri.regular.intersection import common_name
 from rocon_uri.regular.language import Language
-from rocon_uri.regular.product import common_name, includes
 from rocon_uri.regular.syntax import parse
 
 PATTERNS = ['(a|aa)+b', '(a*)*b', '(x+x+)+y', '(a|b)*a(a|b){20}', '(a|b)*a(a|b){200}',

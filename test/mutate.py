@@ -29,11 +29,13 @@ TESTS = {
             'exported_rules', 'threads'],
     'compatibility': ['conformance', 'compatibility', 'import_cost', 'exported_rules'],
     'name_pattern': ['name_pattern', 'conformance', 'compatibility', 'import_cost'],
-    'regular/language': ['regular_walk', 'name_pattern', 'regular_language'],
+    'regular/language': ['regular_sorted_walk', 'name_pattern', 'regular_language'],
+    'regular/inclusion': ['name_pattern', 'compatibility', 'regular_language'],
+    'regular/intersection': ['name_pattern', 'compatibility', 'regular_language'],
     'regular/product': ['name_pattern', 'compatibility', 'regular_language'],
     'regular/syntax': ['name_pattern', 'conformance', 'regular_language'],
     'regular/tree': ['name_pattern', 'compatibility', 'regular_language'],
-    'regular/walk': ['regular_walk', 'resource_index'],
+    'regular/sorted_walk': ['regular_sorted_walk', 'resource_index'],
 }
 
 CONFIG = '''\

@@ -12,7 +12,7 @@ ROS = {'rospy', 'roslib', 'rosgraph', 'rospkg', 'catkin_pkg', 'genpy', 'rosdep2'
 SLOW = {'json', 'logging', 'difflib', 'typing', 'platform', 'subprocess', 'argparse', 'inspect',
         'dataclasses', 'urllib', 'xml', 'pathlib', 'tempfile'}
 AUTOMATA = {'rocon_uri.regular.language', 'rocon_uri.regular.syntax', 'rocon_uri.regular.tree',
-            'rocon_uri.regular.product'}
+            'rocon_uri.regular.product', 'rocon_uri.regular.intersection'}
 
 
 def loaded_by(code):

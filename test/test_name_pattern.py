@@ -14,9 +14,10 @@ from at_once import at_once
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rocon_uri.regular import product as regular_product
 from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
 from rocon_uri.name_pattern import ANY, Glob, Literal, RegularExpression, read
+from rocon_uri.regular.inclusion import includes
+from rocon_uri.regular.intersection import common_name
 from rocon_uri.sources.ros_names import is_legal_base_name
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -162,8 +163,8 @@ globs = st.text(alphabet='ab_3**', min_size=1, max_size=7).filter(legal)
 def test_the_short_ways_for_globs_agree_with_the_automata(one, other):
     one, other = read(one), read(other)
     left, right = one._language(), other._language()
-    assert one.intersects(other) == (regular_product.common_name(left, right) is not None)
-    assert one.includes(other) == regular_product.includes(left, right)
+    assert one.intersects(other) == (common_name(left, right) is not None)
+    assert one.includes(other) == includes(left, right)
     assert [one.matches(name) for name in SHORT_NAMES] == [left.matches(name)
                                                             for name in SHORT_NAMES]
 

@@ -9,7 +9,7 @@ text                    what it admits
 ``bob_*``, ``*_left``   a glob: these and at least one ``*``, which stands for any
                         run of them, none included
 anything else           a regular expression over the whole name, in the syntax of
-                        `rocon_uri.regular_syntax`
+                        `rocon_uri.regular.syntax`
 ======================  ============================================================
 
 So ``dud*`` admits ``dude``, as a glob, and ``(dud*)`` does not, as a regular expression: there the
@@ -129,7 +129,7 @@ class NamePattern:
         `matches` for a great many names, which come in several lists.
 
         :returns: callable that takes a list of legal names in alphabetical order, and returns an
-            iterable of bool; it may remember what was in the lists before
+            iterable of bool
 
         >>> list(read('[a-c].*').matches_in_order()(['alice', 'bob', 'marvin']))
         [True, True, False]
@@ -177,12 +177,12 @@ class NamePattern:
             return self.matches(other.literal)
         if self.text == other.text:
             return True
-        from rocon_uri.regular import product as regular_product   # which only patterns need
-        return regular_product.includes(self._language(), other._language())
+        from rocon_uri.regular.inclusion import includes     # which only patterns need
+        return includes(self._language(), other._language())
 
     def example(self, other: Optional[NamePattern] = None) -> Optional[str]:
         """
-        A shortest name that this admits, of lower-case letters where there is such a one.
+        A shortest name that this admits, of lower-case letters where there is such a name.
 
         :param NamePattern other: another pattern that has to admit it as well
         :returns: str, or ``None`` if no name is in both
@@ -198,8 +198,8 @@ class NamePattern:
         return self._shared_name(other)
 
     def _shared_name(self, other: NamePattern) -> Optional[str]:
-        from rocon_uri.regular import product as regular_product   # which only patterns need
-        return regular_product.common_name(self._language(), other._language())
+        from rocon_uri.regular.intersection import common_name    # which only patterns need
+        return common_name(self._language(), other._language())
 
     def _tree(self, text: str) -> Node:
         from rocon_uri.regular import tree as regular_tree      # which only patterns need
@@ -319,8 +319,8 @@ class RegularExpression(NamePattern):
         return map(self._language().matches, names)
 
     def matches_in_order(self) -> Callable[[List[str]], Iterable[bool]]:
-        from rocon_uri.regular.walk import Walk     # which only many names need
-        return Walk(self._language()).matches
+        from rocon_uri.regular.sorted_walk import SortedWalk     # which only many names need
+        return SortedWalk(self._language()).matches
 
     def _tree(self, text: str) -> Node:
         from rocon_uri.regular.syntax import parse      # which only patterns need

@@ -2,83 +2,66 @@
 Regular languages over ROS names: which names a syntax tree matches.
 
 A language has only *legal ROS names*: a letter, then letters, digits and ``_``, of any length. It
-stands on the positions of the tree and works by derivatives. What is left of the language after
-some characters, its derivative by them, is fixed by the set of positions that have just been read;
-sets are ints with a bit for each position. A derivative is worked out when a name first leads to
-it and kept in a bounded memo. So each character of a name takes one step, whatever the pattern,
-and the next name that comes the same way only looks them up.
+is held as Glushkov's NFA, whose states are the positions of the tree. A state set is an int with a
+bit for each position. The states of the DFA are such sets, made when a name first leads to them
+and kept in a bounded memo. So each character of a name takes one step, whatever the pattern, and
+the next name that goes the same way only looks the steps up.
 """
 from __future__ import annotations
 
 import threading
 from functools import reduce
-from operator import getitem, or_
+from itertools import compress
+from operator import or_
 
 from rocon_uri.regular.tree import ALPHABET, BIT, LETTERS, Node
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Callable, Dict, List, Optional, Tuple
-    _Mapping = Dict[str, int]
-    _Derivatives = Dict[int, '_State']
+    _Transitions = Dict[int, '_State']
 else:
-    _Mapping = _Derivatives = dict
+    _Transitions = dict
 
-__all__ = ['BEGIN', 'Language', 'Step', 'Unions', 'language']
+__all__ = ['BEGIN', 'Language', 'Step', 'language', 'union']
 
-BEGIN = 1           # the set of the one position that comes before the first character
+BEGIN = 1           # the state set before the first character: position 0 alone
 _END = 1            # in a set of positions that may follow: the name may end here
 
-_STATES = 768       # derivatives in a memo
-_SPARE = 256        # of these, how many a name to come can count on
-_MEMO_BYTES = 32 << 20      # of all languages that are remembered, about
+#: The DFA of a pattern can have 2 ** 4096 states, so its memo is bounded. A match begins with room
+#: for at least `_SPARE` states, which is enough for a name of 255 characters, or with a new memo;
+#: a longer name that fills it makes its other states without remembering them.
+_STATES = 768
+_SPARE = 256
+
+#: About the bytes that all remembered languages may come to take: three of the largest, or hundreds
+#: of ordinary ones. Past it those that were not used for longest are made again when needed.
+_MEMO_BYTES = 32 << 20
 
 
-class _Row(_Mapping):
-    """The unions of some of four sets, by which of them, as a hexadecimal digit."""
-
-    __slots__ = ('sets',)
-
-    def __init__(self, sets: List[int]) -> None:
-        self.sets = sets
-
-    def __missing__(self, digit: str) -> int:
-        chosen = int(digit, 16)
-        self[digit] = union = reduce(
-            or_, (members for index, members in enumerate(self.sets) if chosen >> index & 1), 0)
-        return union
+_IS_ONE = bytes(octet == ord('1') for octet in range(256))
 
 
-class Unions:
+def union(sets: List[int], selection: int) -> int:
     """
-    Of sets that are numbered, the union of any selection.
+    The union of some of many sets.
 
-    A selection can have thousands of members, so unions are taken over four of them at a time.
+    :param sets: list of int, a set each
+    :param int selection: the set of the numbers of those to unite
+    :returns: int
 
-    :param sets: list of int
+    >>> union([0b0001, 0b0010, 0b1000], 0b101) == 0b1001
+    True
     """
-
-    def __init__(self, sets: List[int]) -> None:
-        self.sets = sets
-        self._rows = [_Row(sets[index:index + 4]) for index in range(0, len(sets), 4)]
-
-    def __call__(self, selection: int) -> int:
-        """
-        The union of some of the sets.
-
-        :param int selection: the set of their numbers
-        :returns: int
-        """
-        lowest = selection & -selection
-        if selection == lowest:     # of one set or none there is nothing to unite
-            return self.sets[selection.bit_length() - 1] if selection else 0
-        before = (lowest.bit_length() - 1) // 4
-        digits = format(selection >> 4 * before, 'x')[::-1]
-        return reduce(or_, map(getitem, self._rows[before:], digits))
+    if not selection:
+        return 0
+    lowest = (selection & -selection).bit_length() - 1
+    selected = format(selection >> lowest, 'b')[::-1].encode().translate(_IS_ONE)
+    return reduce(or_, compress(sets[lowest:lowest + len(selected)], selected))
 
 
-class _State(_Derivatives):
-    """A derivative: from the classes of characters met so far, as octets, to those by them."""
+class _State(_Transitions):
+    """A DFA state: for each class of characters met so far, as an octet, the next DFA state."""
 
     __slots__ = ('accepts', 'positions')
 
@@ -88,7 +71,7 @@ class _State(_Derivatives):
 
 
 def _new_memo() -> Dict[int, _State]:
-    """Derivatives by their positions."""
+    """DFA states by their NFA state sets."""
     nowhere = _State(0, False)
     nowhere.update(dict.fromkeys(ALPHABET.encode(), nowhere))
     return {0: nowhere, BEGIN: _State(BEGIN, False)}
@@ -103,7 +86,7 @@ class Language:
     :param str text: the pattern as written, for errors
     :param Node tree: its syntax tree
 
-    ``work`` is what matching has cost so far: one for each derivative that was not in the memo,
+    ``work`` is what matching has cost so far: one for each transition that was not in the memo,
     and one for every four positions. Where several threads match at once it is approximate.
 
     >>> from rocon_uri.regular.syntax import parse
@@ -122,8 +105,8 @@ class Language:
         follow[0] = tree.first << 1
         #: for each position, the characters that it reads
         self.reads = reads
-        #: for each set of positions, those that may come next
-        self.following = Unions(follow)
+        #: for each position, those that may come next
+        self.follow = follow
         #: the positions after which the name may end
         self.last = reduce(or_, (1 << index for index in range(size) if follow[index] & _END))
         self.char_class, self.readers = _classes(reads)
@@ -150,7 +133,7 @@ class Language:
             except KeyError:
                 if not octet:
                     return False
-                state = self._derivative(memo, state, octet)
+                state = self._next_state(memo, state, octet)
         return state.accepts
 
     def _fresh_memo(self) -> Dict[int, _State]:
@@ -161,7 +144,7 @@ class Language:
                 self._earlier, self._memo = self._memo, _new_memo()
             return self._memo
 
-    def _derivative(self, memo: Dict[int, _State], state: _State, octet: int) -> _State:
+    def _next_state(self, memo: Dict[int, _State], state: _State, octet: int) -> _State:
         earlier = self._earlier.get(state.positions, state).get(octet)
         positions = self._read(state.positions, chr(octet)) if earlier is None \
             else earlier.positions
@@ -181,11 +164,20 @@ class Language:
             return 0
         return self.following(positions) & self.readers[self.char_class[char]]
 
+    def following(self, positions: int) -> int:
+        """
+        The positions that may come after any of some.
+
+        :param int positions: the set of positions that have just been read
+        :returns: int
+        """
+        return union(self.follow, positions)
+
     def example(self) -> str:
         """
         A shortest name of the language.
 
-        :returns: str, of lower-case letters if there is such a one
+        :returns: str, of lower-case letters if there is such a name
         """
         return self.completion(BEGIN)
 
@@ -211,12 +203,12 @@ class Language:
 
 class Step:
     """
-    A step of a breadth-first walk through derivatives.
+    A step of a breadth-first walk through state sets.
 
     :param Step before: the step before, ``None`` at the beginning
     :param str char: the character read
-    :param int positions: the positions that have been come to
-    :param int others: those of another language, where two are walked
+    :param int positions: the state set that it leads to
+    :param int others: that of another language, where two are walked
     """
 
     __slots__ = ('before', 'char', 'others', 'positions')
@@ -293,5 +285,5 @@ def language(text: str, tree: Callable[[str], Node]) -> Language:
 
 
 def _weight(found: Language) -> int:
-    """The bytes that a language may come to take, about: most are rows of sets of positions."""
+    """The bytes that a language may come to take, about: most are state sets."""
     return (found.tree.size + 300) ** 2 // 2

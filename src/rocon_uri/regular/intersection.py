@@ -1,0 +1,60 @@
+"""Whether two regular languages intersect: a shortest name that both have."""
+from __future__ import annotations
+
+from rocon_uri.regular.language import BEGIN, Language, Step
+from rocon_uri.regular.product import Product, numbers_in
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Dict, Optional
+
+__all__ = ['Intersection', 'common_name']
+
+
+def common_name(one: Language, other: Language) -> Optional[str]:
+    """
+    A shortest name that two languages have in common.
+
+    :param Language one: a language
+    :param Language other: another one
+    :returns: str, or ``None`` if there is none
+    :raises PatternTooComplex: if that takes too much work to decide
+
+    >>> from rocon_uri.regular.syntax import parse
+    >>> common_name(Language('', parse('[a-e]+')), Language('', parse('.*[d-z]{2}')))
+    'dd'
+    """
+    if (one.tree.size, one.text) < (other.tree.size, other.text):
+        one, other = other, one
+    found = Intersection(one, other).shortest()
+    return None if found is None else found.text()
+
+
+class Intersection(Product):
+    """The product of two NFAs, searched for a name that both accept."""
+
+    def shortest(self) -> Optional[Step]:
+        """
+        Find a shortest name in both languages.
+
+        The other language's positions are followed one by one. There are only as many pairs of
+        positions as the product of their numbers, and a pair needs no second visit.
+
+        :returns: Step, the last one of the name, or ``None`` if there is no such name
+        :raises PatternTooComplex: if that takes too much work
+        """
+        met: Dict[int, int] = {}
+        steps = [Step(None, '', BEGIN, BEGIN)]
+        for step in steps:
+            for char, positions, others in self.successors(step):
+                if positions & self.one.last and others & self.other.last:
+                    return Step(step, char, positions, others)
+                for other in numbers_in(others):
+                    self.spend(6 + self.cost)
+                    known = met.get(other, 0)
+                    fresh = positions & ~known
+                    if fresh:
+                        self.spend(6 + self.cost)
+                        met[other] = known | fresh
+                        steps.append(Step(step, char, fresh, 1 << other))
+        return None
