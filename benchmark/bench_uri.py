@@ -11,6 +11,14 @@ URI = 'rocon:/turtlebot2/cybernetic_pirate/noetic/focal'
 REQUEST = 'rocon:/turtlebot2|pr2/cybernetic_pirate/ros/ubuntu'
 PATTERNS = ['cybernetic_[a-z]+_?[0-9]*', '[a-z]+_[a-z]+[0-9]{4}', '(robot|cyber.*)_.*[0-9]']
 
+#: what is said of them, the texts with a number for each, the target
+OTHER_FORMS = [
+    ('a glob', 'rocon:/turtlebot2/cybernetic_%06d*/noetic/focal', 5),
+    ('a concert', 'rocon://north/turtlebot2/cybernetic_%06d/noetic/focal', 4),
+    ('// read as /', 'rocon://turtlebot2/cybernetic_%06d/noetic', 4.5),
+    ('an escape', 'rocon:/turtlebot2%%7Cpr2/cybernetic_%06d/noetic/focal', 5),
+    ('a regular expression', 'rocon:/turtlebot2/cybernetic_%06d[0-9]+/noetic/focal', None)]
+
 
 def figures():
     """What this part measures."""
@@ -44,6 +52,11 @@ def reading_many():
     reference, parse = best_times(['for text in texts: urlsplit(text)',
                                    'for text in texts: parse(text)'], known, 1, 8)
     yield figure('parse, 100,000 distinct names', parse / 1e5, reference / 1e5, 1.5)
+    for what, form, target in OTHER_FORMS:
+        known['texts'] = [form % number for number in range(20000)]
+        reference, parse = best_times(['for text in texts: urlsplit(text)',
+                                       'for text in texts: parse(text)'], known, 1, 8)
+        yield figure('parse, distinct names, ' + what, parse / 2e4, reference / 2e4, target)
 
 
 def comparing_names():

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from rocon_uri import PatternTooComplex, RoconURI, RoconURIValueError, Vocabulary, parse
 from rocon_uri.sources.wording import near_misses, quoted
-from rocon_uri.field import UnregisteredValue
+from rocon_uri.exceptions import UnregisteredValue
 
 FIELDS = {'uri', 'concert_name', 'hardware_platform', 'name', 'application_framework',
           'operating_system', 'rocon_app'}

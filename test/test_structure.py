@@ -21,8 +21,8 @@ LEVELS = (
     ('sources',),
     ('exceptions', 'grammar', 'regular', 'exported_rules'),
     ('field_vocabulary', 'vocabulary', 'name_pattern'),
-    ('parts', 'field'),
-    ('uri',),
+    ('alternatives', 'parts', 'field'),
+    ('reading', 'uri'),
     ('compatibility', 'name_index', 'messages', 'platform'),
     ('resource_index',),
     ('resource_database',),
@@ -39,8 +39,8 @@ EARLIER_PATHS = {'rocon_uri.rapps', 'rocon_uri.ros_names', 'rocon_uri.yaml_sourc
 RUNTIME = {'server', 'client', 'service_discovery', 'launch_manager'}
 
 #: imports that are still to be removed
-KNOWN_CIRCLES: Set[Tuple[str, ...]] = {('rocon_uri.field', 'rocon_uri.uri')}
-KNOWN_ARROWS: Set[Tuple[str, str]] = {('rocon_uri.field', 'rocon_uri.uri')}
+KNOWN_CIRCLES: Set[Tuple[str, ...]] = set()
+KNOWN_ARROWS: Set[Tuple[str, str]] = set()
 
 ANY_AT_MOST = 108
 

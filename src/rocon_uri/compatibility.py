@@ -1,8 +1,8 @@
 """
-Two rocon URIs side by side: do they meet, how do they lie to each other, and why?
+Two rocon URIs side by side: do they match a common resource, which is the larger, and why?
 
-A URI stands for a set of resources, the product of what its fields and its concert stand for; the
-app says what runs, not where it can run, and takes no part.
+A URI matches a set of resources: the product of the sets of its fields and its concert. The app
+says what runs, not where it can run, and takes no part.
 """
 from __future__ import annotations
 
@@ -10,90 +10,34 @@ from collections import namedtuple
 from enum import Enum
 
 from rocon_uri.exceptions import PatternTooComplex
-from rocon_uri.field import UnregisteredValue
-from rocon_uri.name_pattern import ANY
-from rocon_uri.uri import RoconURI, aligned, parse
-from rocon_uri.vocabulary import Vocabulary
+from rocon_uri.uri import RoconURI, aligned, comparable, is_compatible
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Dict, List, Optional, Tuple, Union
+    from typing import Dict, List, Optional, Union
     Resource = Union[str, RoconURI]
 
 __all__ = ['Explanation', 'FieldComparison', 'Relation', 'explain', 'is_compatible', 'relation']
 
 
 class Relation(Enum):
-    """How the resources that one URI stands for lie to those of another."""
+    """How the sets of resources that two URIs match are related."""
 
-    #: both stand for the same resources
+    #: both match the same resources
     EQUAL = 'equal'
-    #: the second stands for all that the first stands for, and more
+    #: the second matches all that the first matches, and more
     SUBSET = 'subset'
-    #: the first stands for all that the second stands for, and more
+    #: the first matches all that the second matches, and more
     SUPERSET = 'superset'
-    #: they have resources in common, and each has others too
+    #: the sets overlap, and each has resources of its own
     OVERLAP = 'overlap'
-    #: they have none in common
+    #: no resource is in both sets
     DISJOINT = 'disjoint'
-
-
-def is_compatible(a: Resource, b: Resource) -> bool:
-    """
-    Is there a resource that both stand for; can this app run on this robot?
-
-    Where the four fields of one are all ``*``, the other may have values that are not registered.
-
-    :param a: RoconURI, or str that is parsed
-    :param b: RoconURI, or str that is parsed
-    :returns: bool; the same for (b, a)
-    :raises RoconURIValueError: for a text that is not legal
-    :raises PatternTooComplex: if the two names take too much work to decide
-
-    >>> is_compatible('rocon:/kobuki|turtlebot2', 'rocon:/kobuki/bob/noetic/bookworm')
-    True
-    """
-    if type(a) is not RoconURI or type(b) is not RoconURI or a._vocabulary is not b._vocabulary:
-        a, b = _comparable(a, b)
-    # The slots themselves, since by way of the properties this would take twice the time.
-    if not (a._hardware_platform.mask & b._hardware_platform.mask
-            and a._application_framework.mask & b._application_framework.mask
-            and a._operating_system.mask & b._operating_system.mask):
-        # values that only an open vocabulary admits have no bits
-        return a._vocabulary.is_open and not a.isdisjoint(b)
-    if a._concert_name and b._concert_name and a._concert_name != b._concert_name:
-        return False
-    if a._pattern is None:
-        return (a._name == b._name if b._pattern is None
-                else b._pattern is ANY or b._pattern.matches(a._name))
-    if a._pattern is ANY or b._pattern is ANY:      # most requests leave the name open
-        return True
-    return a._pattern.matches(b._name) if b._pattern is None else a._pattern.intersects(b._pattern)
-
-
-def _comparable(a: Resource, b: Resource) -> Tuple[RoconURI, RoconURI]:
-    """Both as one vocabulary reads them: an open one if one is unregistered and one is any."""
-    try:
-        first, second = parse(a), parse(b)
-        if first._vocabulary is second._vocabulary:
-            return first, second
-        return aligned(first, second)
-    except UnregisteredValue:
-        any_value = Vocabulary.open()
-        first, second = parse(a, any_value), parse(b, any_value)
-        if _is_any(first) or _is_any(second):
-            return first, second
-        raise
-
-
-def _is_any(uri: RoconURI) -> bool:
-    return (uri.hardware_platform.is_any and uri.name.is_any
-            and uri.application_framework.is_any and uri.operating_system.is_any)
 
 
 def relation(a: Resource, b: Resource) -> Relation:
     """
-    How the first lies to the second, as sets of resources.
+    How the sets of resources that two URIs match are related.
 
     :param a: RoconURI, or str that is parsed
     :param b: RoconURI, or str that is parsed
@@ -105,9 +49,9 @@ def relation(a: Resource, b: Resource) -> Relation:
     'subset'
     """
     first, second = aligned(a, b, complete=True)
-    pairs = [(x, y) for (_, x), (_, y) in zip(first.sets, second.sets)]
-    if not all(x.intersects(y) for x, y in pairs):
+    if not is_compatible(first, second):
         return Relation.DISJOINT
+    pairs = [(x, y) for (_, x), (_, y) in zip(first.sets, second.sets)]
     is_subset = all(y.includes(x) for x, y in pairs)
     is_superset = all(x.includes(y) for x, y in pairs)
     if is_subset:
@@ -193,4 +137,4 @@ def explain(a: Resource, b: Resource) -> Explanation:
        application_framework  *       noetic  noetic
        operating_system       *       *       *
     """
-    return Explanation(*_comparable(a, b))
+    return Explanation(*comparable(a, b))

@@ -12,7 +12,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Callable, Iterable, List, Optional, Tuple
 
-__all__ = ['PatternTooComplex', 'RoconURIValueError']
+__all__ = ['PatternTooComplex', 'RoconURIValueError', 'UnregisteredValue']
 
 
 class RoconURIValueError(ValueError):
@@ -112,6 +112,10 @@ class RoconURIValueError(ValueError):
     def __reduce__(self) -> Tuple[Any, ...]:
         return type(self), (self.problem, self.uri, self.field, self.value, self.span,
                             tuple(self.suggestions), self.advice)
+
+
+class UnregisteredValue(RoconURIValueError):
+    """A value that the vocabulary does not know; a more complete one may."""
 
 
 class PatternTooComplex(RoconURIValueError):

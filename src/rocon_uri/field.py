@@ -1,31 +1,25 @@
 """
 One field of a rocon URI: a set of values, or of names.
 
-`read_values` reads the fields whose values are registered, `read_name` the name.
+`read_values` reads the fields whose values are registered.
 """
 from __future__ import annotations
 
-from rocon_uri import name_pattern
-from rocon_uri.exceptions import RoconURIValueError
-from rocon_uri.sources.wording import quoted
-from rocon_uri.grammar import ALTERNATIVES_LIMIT, NAME_LIMIT
+from rocon_uri.alternatives import read_alternatives
+from rocon_uri.exceptions import UnregisteredValue
 from rocon_uri.sources.ros_names import is_legal_base_name
 from rocon_uri.vocabulary import Vocabulary, completed
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, FrozenSet, Iterator, List, Optional, Tuple
+    from typing import Dict, FrozenSet, Iterator, List, Optional, Tuple
     from rocon_uri.name_pattern import NamePattern
 
-__all__ = ['Field', 'NameField', 'UnregisteredValue', 'ValuesField', 'read_name', 'read_values']
+__all__ = ['Field', 'NameField', 'UnregisteredValue', 'ValuesField', 'read_values']
 
 _ANY_MASK = -1      # all bits, more than any vocabulary has: `*` is larger than all that is known
 _MEMO_SIZE = 1024           # field texts remembered for each field of a vocabulary
 _MEMO_TEXT_LENGTH = 256     # characters; longer ones are read anew each time
-
-
-class UnregisteredValue(RoconURIValueError):
-    """A value that the vocabulary does not know; a more complete one may."""
 
 
 class Field:
@@ -88,7 +82,7 @@ class Field:
     def __copy__(self) -> 'Field':
         return self
 
-    def __deepcopy__(self, memo: Dict[int, Any]) -> 'Field':
+    def __deepcopy__(self, memo: Dict[int, object]) -> 'Field':
         return self
 
     def __str__(self) -> str:
@@ -107,13 +101,13 @@ class ValuesField(Field):
     :param Vocabulary vocabulary: what they are read with
     """
 
-    __slots__ = ('field_name', 'alternatives', 'mask', 'others', '_vocabulary', '_key')
+    __slots__ = ('field_name', 'alternatives', 'mask', 'others', 'vocabulary', '_key')
 
     field_name: str
     alternatives: Tuple[str, ...]
     mask: int
     others: FrozenSet[str]      # the values that only an open vocabulary admits have no bits
-    _vocabulary: Vocabulary
+    vocabulary: Vocabulary
     _key: FrozenSet[str]
 
     def __init__(self, name: str, alternatives: Tuple[str, ...], vocabulary: Vocabulary) -> None:
@@ -128,7 +122,7 @@ class ValuesField(Field):
         for attribute, content in (
                 ('_string', '|'.join(alternatives)), ('field_name', name),
                 ('alternatives', alternatives), ('mask', mask), ('others', others),
-                ('_vocabulary', vocabulary), ('_key', frozenset(alternatives))):
+                ('vocabulary', vocabulary), ('_key', frozenset(alternatives))):
             object.__setattr__(self, attribute, content)
 
     def __iter__(self) -> Iterator[str]:
@@ -137,7 +131,7 @@ class ValuesField(Field):
     def __contains__(self, value: object) -> bool:
         if not isinstance(value, str):
             return False
-        vocabulary = self._vocabulary
+        vocabulary = self.vocabulary
         known = vocabulary.field(self.field_name)
         if value not in known or known.children(value):     # of others, the groups do not change
             vocabulary = completed(vocabulary)
@@ -148,12 +142,12 @@ class ValuesField(Field):
 
     def in_vocabulary(self, vocabulary: Vocabulary) -> 'ValuesField':
         """The same field read with another vocabulary, or UnregisteredValue."""
-        if vocabulary is self._vocabulary:
+        if vocabulary is self.vocabulary:
             return self
         return read_values(self.field_name, self._string, vocabulary)
 
     def expand(self) -> List[str]:
-        vocabulary = completed(self._vocabulary)
+        vocabulary = completed(self.vocabulary)
         known = vocabulary.field(self.field_name)
         values = known if self.is_any else self.alternatives
         return list(dict.fromkeys(leaf for value in values
@@ -174,7 +168,7 @@ class ValuesField(Field):
             return other.string
         if other.is_any:
             return self.string
-        known = self._vocabulary.field(self.field_name)
+        known = self.vocabulary.field(self.field_name)
         return '|'.join(known.covering(self.mask & other.mask)
                         + sorted(self.others & other.others))
 
@@ -186,10 +180,8 @@ class ValuesField(Field):
     def __hash__(self) -> int:
         return hash(self._key)
 
-    def __reduce__(self) -> Tuple[Any, ...]:
-        from rocon_uri.uri import RoconURI      # here, since it stands on this module
-        fields: Dict[str, Any] = {self.field_name: self, 'vocabulary': self._vocabulary}
-        return getattr, (RoconURI.from_fields(**fields), self.field_name)
+    def __reduce__(self) -> Tuple[object, ...]:
+        return _read_again, (self.field_name, self._string, self.vocabulary)
 
 
 class NameField(Field):
@@ -233,8 +225,8 @@ class NameField(Field):
     def __hash__(self) -> int:
         return hash(self._string)
 
-    def __reduce__(self) -> Tuple[Any, ...]:
-        return read_name, (self._string,)
+    def __reduce__(self) -> Tuple[object, ...]:
+        return NameField, (self._string, self.pattern)
 
 
 def read_values(name: str, text: str, vocabulary: Vocabulary) -> ValuesField:
@@ -250,7 +242,7 @@ def read_values(name: str, text: str, vocabulary: Vocabulary) -> ValuesField:
     memo = vocabulary.fields_read[name]
     field: Optional[ValuesField] = memo.get(text)
     if field is None:
-        field = ValuesField(name, _alternatives(name, text or '*', vocabulary), vocabulary)
+        field = ValuesField(name, read_alternatives(name, text, vocabulary), vocabulary)
         if len(text) <= _MEMO_TEXT_LENGTH:
             if len(memo) >= _MEMO_SIZE:
                 memo.clear()
@@ -258,46 +250,9 @@ def read_values(name: str, text: str, vocabulary: Vocabulary) -> ValuesField:
     return field
 
 
-def _alternatives(name: str, text: str, vocabulary: Vocabulary) -> Tuple[str, ...]:
-    known = vocabulary.field(name)
-    if text.count('|') >= ALTERNATIVES_LIMIT:
-        raise RoconURIValueError('%s has more than %d alternatives' % (name, ALTERNATIVES_LIMIT),
-                                 text, name, text)
-    alternatives = []
-    start = 0
-    for value in text.split('|'):
-        span = (start, start + len(value))
-        start = span[1] + 1
-        if not value:
-            raise RoconURIValueError(
-                '%s %s has an empty alternative' % (name, quoted(text)), text, name, value,
-                (max(0, span[0] - 1), max(1, span[1])), advice="write a value on each side of '|'")
-        if value != '*' and value not in known:
-            _check_unregistered(name, value, text, span, vocabulary)
-        alternatives.append(value)
-    return ('*',) if '*' in alternatives else tuple(dict.fromkeys(alternatives))
-
-
-def _check_unregistered(name: str, value: str, text: str, span: Tuple[int, int],
-                        vocabulary: Vocabulary) -> None:
-    if not vocabulary.is_open:
-        raise UnregisteredValue(
-            '%s %s is not registered' % (name, quoted(value)), text, name, value, span,
-            candidates=vocabulary.field(name),
-            advice='to register it, add it to a rules file that a package exports or that '
-                   'ROCON_URI_RULES names')
-    if not is_legal_base_name(value) or len(value) > NAME_LIMIT:
-        raise RoconURIValueError('%s %s is not a ROS base name of at most %d characters'
-                                 % (name, quoted(value), NAME_LIMIT), text, name, value, span)
-
-
-def read_name(text: str) -> NameField:
-    """
-    Read the name.
-
-    :param str text: its text, decoded; '' for any
-    :returns: NameField
-    :raises RoconURIValueError: if it is not legal; span is in ``text``
-    """
-    text = text or '*'
-    return NameField(text, name_pattern.read(text))
+def _read_again(name: str, text: str, vocabulary: Vocabulary) -> ValuesField:
+    """A field that was pickled, with the complete vocabulary if the current one lacks a value."""
+    try:
+        return read_values(name, text, vocabulary)
+    except UnregisteredValue:
+        return read_values(name, text, completed(vocabulary))

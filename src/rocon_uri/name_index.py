@@ -84,11 +84,11 @@ class NameIndex:
         :param int number: its number, larger than those that there were
         :param RoconURI uri: the resource
         """
-        if uri._pattern is None:
+        if uri.name_pattern is None:
             for backwards, order in self._changing():
-                order.add(uri._name[::-1] if backwards else uri._name, number)
+                order.add(uri.name_text[::-1] if backwards else uri.name_text, number)
         else:
-            self._patterned.setdefault(uri._pattern, set()).add(number)
+            self._patterned.setdefault(uri.name_pattern, set()).add(number)
 
     def discard(self, number: int, uri: RoconURI) -> None:
         """
@@ -97,14 +97,14 @@ class NameIndex:
         :param int number: its number
         :param RoconURI uri: the resource
         """
-        if uri._pattern is None:
+        if uri.name_pattern is None:
             for backwards, order in self._changing():
-                order.discard(uri._name[::-1] if backwards else uri._name, number)
+                order.discard(uri.name_text[::-1] if backwards else uri.name_text, number)
         else:
-            numbers = self._patterned[uri._pattern]
+            numbers = self._patterned[uri.name_pattern]
             numbers.remove(number)
             if not numbers:
-                del self._patterned[uri._pattern]
+                del self._patterned[uri.name_pattern]
 
     def _changing(self) -> Iterable[Tuple[bool, _Order]]:
         """What is to be kept up to date; where a lot changes, sorting again is cheaper."""
@@ -153,8 +153,8 @@ class NameIndex:
         self._changes = 0
         order = self._orders.get(backwards)
         if order is None:
-            names = ((uri._name, number) for number, uri in self._resources.items()
-                     if uri._pattern is None)
+            names = ((uri.name_text, number) for number, uri in self._resources.items()
+                     if uri.name_pattern is None)
             order = _Order((name[::-1], number) for name, number in names) if backwards \
                 else _Order(names)
             self._orders[backwards] = order

@@ -14,7 +14,7 @@ from itertools import chain
 from rocon_uri.compatibility import is_compatible
 from rocon_uri.exceptions import PatternTooComplex
 from rocon_uri.sources.wording import quoted
-from rocon_uri.field import UnregisteredValue
+from rocon_uri.exceptions import UnregisteredValue
 from rocon_uri.name_index import NameIndex, NameRequest
 from rocon_uri.uri import RoconURI, aligned, parse, with_any_name
 
@@ -168,7 +168,7 @@ class ResourceIndex(Resources):
         name = NameRequest(request.name.pattern)
         for kind in self._kinds.values():
             uri, requested = kind.uri, asked
-            if uri._vocabulary is not asked._vocabulary:
+            if uri.vocabulary is not asked.vocabulary:
                 try:
                     uri, requested = aligned(uri, asked)
                 except UnregisteredValue:       # which a comparison with anything at all survives
@@ -237,8 +237,8 @@ class ResourceIndex(Resources):
 
 
 def _kind_key(uri: RoconURI) -> KindKey:
-    return (uri._hardware_platform, uri._application_framework, uri._operating_system,
-            uri._concert_name, uri._vocabulary)
+    return (uri.hardware_platform, uri.application_framework, uri.operating_system,
+            uri.concert_name, uri.vocabulary)
 
 
 class _Kind:

@@ -66,6 +66,11 @@ class Vocabulary:
         vocabulary._adopt(fields, is_open)
         return vocabulary
 
+    def __reduce__(self) -> Tuple[object, ...]:
+        if self is _initial or self is _complete:
+            return current, ()
+        return Vocabulary._of, (self._fields, self.is_open)
+
     @classmethod
     def bundled(cls) -> 'Vocabulary':
         """

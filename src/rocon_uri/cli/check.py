@@ -22,8 +22,7 @@ from __future__ import annotations
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.given import GivenURI, Report, say
 from rocon_uri.compatibility import Relation, explain, is_compatible, relation
-from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
-from rocon_uri.field import UnregisteredValue
+from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError, UnregisteredValue
 from rocon_uri.uri import parse
 from rocon_uri.vocabulary import Vocabulary
 

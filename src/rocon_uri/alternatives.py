@@ -1,0 +1,73 @@
+"""
+A list of alternatives such as ``pr2|kobuki``: what it says, and what is wrong with one.
+
+This is where it is decided what a ``*`` in a list means: it makes the whole list ``*``.
+"""
+from __future__ import annotations
+
+from rocon_uri.exceptions import RoconURIValueError, UnregisteredValue
+from rocon_uri.grammar import ALTERNATIVES_LIMIT, NAME_LIMIT
+from rocon_uri.sources.ros_names import is_legal_base_name
+from rocon_uri.sources.wording import quoted
+from rocon_uri.vocabulary import Vocabulary
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Tuple
+
+__all__ = ['read_alternatives']
+
+_ANY = ('*',)
+
+
+def read_alternatives(field: str, text: str, vocabulary: Vocabulary) -> Tuple[str, ...]:
+    """
+    The alternatives of a field whose values are registered.
+
+    :param str field: the name of the field
+    :param str text: the text of the field, decoded; '' for any
+    :param Vocabulary vocabulary: the registered values
+    :returns: tuple of str, in the order of the text and without repetitions; ``('*',)`` where one
+        of them is ``*``, though the others must be registered all the same
+    :raises UnregisteredValue: for a value that the vocabulary does not have
+    :raises RoconURIValueError: for an empty alternative, for too many, and for what an open
+        vocabulary refuses too; ``span`` is where in ``text`` the fault is
+
+    >>> everything = Vocabulary.bundled()
+    >>> read_alternatives('hardware_platform', 'pr2|kobuki|pr2', everything)
+    ('pr2', 'kobuki')
+    >>> read_alternatives('hardware_platform', 'pr2|*', everything)
+    ('*',)
+    """
+    if text in ('', '*'):
+        return _ANY
+    if text.count('|') >= ALTERNATIVES_LIMIT:
+        raise RoconURIValueError('%s has more than %d alternatives' % (field, ALTERNATIVES_LIMIT),
+                                 text, field, text)
+    registered = vocabulary.field(field)
+    alternatives = text.split('|')
+    start = 0
+    for value in alternatives:
+        end = start + len(value)
+        if not value:
+            raise RoconURIValueError(
+                '%s %s has an empty alternative' % (field, quoted(text)), text, field, value,
+                (max(0, start - 1), max(1, end)), advice="write a value on each side of '|'")
+        if value != '*' and value not in registered:
+            _check_unregistered(field, value, text, (start, end), vocabulary)
+        start = end + 1
+    return _ANY if '*' in alternatives else tuple(dict.fromkeys(alternatives))
+
+
+def _check_unregistered(field: str, value: str, text: str, span: Tuple[int, int],
+                        vocabulary: Vocabulary) -> None:
+    """Raise unless the vocabulary is open and the value is a ROS base name."""
+    if not vocabulary.is_open:
+        raise UnregisteredValue(
+            '%s %s is not registered' % (field, quoted(value)), text, field, value, span,
+            candidates=vocabulary.field(field),
+            advice='to register it, add it to a rules file that a package exports or that '
+                   'ROCON_URI_RULES names')
+    if not is_legal_base_name(value) or len(value) > NAME_LIMIT:
+        raise RoconURIValueError('%s %s is not a ROS base name of at most %d characters'
+                                 % (field, quoted(value), NAME_LIMIT), text, field, value, span)

@@ -1,0 +1,130 @@
+"""
+From the text of a rocon URI to what its fields say: split it, then read each field in turn.
+"""
+from __future__ import annotations
+
+from rocon_uri import grammar, name_pattern
+from rocon_uri.exceptions import RoconURIValueError, UnregisteredValue
+from rocon_uri.field import ValuesField, read_values
+from rocon_uri.parts import Parts, split
+from rocon_uri.sources.ros_names import is_legal_base_name
+from rocon_uri.sources.wording import quoted
+from rocon_uri.vocabulary import Vocabulary, completed
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Optional, Sequence, Tuple
+    from rocon_uri.name_pattern import NamePattern
+    #: concert_name, hardware_platform, name, its pattern (None for a literal name),
+    #: application_framework, operating_system, rocon_app, the vocabulary, was // read as /?
+    Reading = Tuple[str, ValuesField, str, Optional[NamePattern], ValuesField, ValuesField, str,
+                    Vocabulary, bool]
+
+__all__ = ['read', 'read_common', 'read_texts']
+
+_LEFT_OUT = ('',) * 5       # what the parts between slashes are where there are fewer
+
+
+def read_common(text: str, vocabulary: Vocabulary) -> Optional[Reading]:
+    """
+    Read the commonest form: a robot with a literal name, and values that were read before.
+
+    It takes a third of the time of `read`, less than urllib takes to split the text.
+
+    :param str text: anything
+    :param Vocabulary vocabulary: the registered values
+    :returns: what `read` returns, or None for any other text, right or wrong
+    """
+    fields, _, app = text.partition('#')
+    parts = fields.split('/', 5)
+    parts += _LEFT_OUT[len(parts):]
+    platforms, frameworks, systems = vocabulary.fields_read.values()
+    try:
+        scheme, platform, name, framework, system = parts
+        values = platforms[platform], frameworks[framework], systems[system]
+    except (KeyError, ValueError):
+        return None
+    if scheme != 'rocon:' or not platform or not grammar.is_literal(name):
+        return None
+    if app and not grammar.is_rocon_app(app):
+        return None
+    return '', values[0], name, None, values[1], values[2], app, vocabulary, False
+
+
+def read(text: str, vocabulary: Vocabulary, strict: bool) -> Reading:
+    """
+    Read the text of a URI.
+
+    :param str text: anything
+    :param Vocabulary vocabulary: the registered values; the complete vocabulary takes its place
+        if it only stood in for that one and lacks a value
+    :param bool strict: take the text by its letter
+    :returns: the fields and how they were read
+    :raises RoconURIValueError: for a text that is not legal; ``span`` is where in it the fault is
+    """
+    parts = split(text, vocabulary, strict)
+    try:
+        return _read_parts(parts)
+    except RoconURIValueError as error:
+        if not isinstance(error, UnregisteredValue) or completed(vocabulary) is vocabulary:
+            raise parts.placed(error) from None
+    return read(text, completed(vocabulary), strict)
+
+
+def read_texts(texts: Sequence[str], vocabulary: Vocabulary) -> Reading:
+    """
+    Read the texts of the fields, which come without percent-escapes.
+
+    :param texts: sequence of six str, in the order of `rocon_uri.parts.FIELDS`
+    :param Vocabulary vocabulary: as `read` takes
+    :returns: the fields and how they were read
+    :raises RoconURIValueError: for a field that is not legal; ``span`` is where in its text
+    """
+    try:
+        return _read_parts(Parts(texts, vocabulary))
+    except UnregisteredValue:
+        if completed(vocabulary) is vocabulary:
+            raise
+    return read_texts(texts, completed(vocabulary))
+
+
+def _read_parts(parts: Parts) -> Reading:
+    """Read the fields in order, so that the first fault is the one that is reported."""
+    vocabulary = parts.vocabulary
+    concert_name = _read_concert_name(parts.decoded(0))
+    platform = read_values('hardware_platform', parts.decoded(1), vocabulary)
+    name = parts.decoded(2) or '*'
+    pattern = None if grammar.is_literal(name) else name_pattern.read(name)
+    framework = read_values('application_framework', parts.decoded(3), vocabulary)
+    system = read_values('operating_system', parts.decoded(4), vocabulary)
+    app = _read_rocon_app(parts.decoded(5))
+    return (concert_name, platform, name, pattern, framework, system, app, vocabulary,
+            parts.with_one_slash)
+
+
+def _read_concert_name(text: str) -> str:
+    if text and not is_legal_base_name(text):
+        raise RoconURIValueError(
+            'concert_name %s is not a ROS base name (a letter, then letters, digits and _)'
+            % quoted(text), text, 'concert_name', text)
+    _check_length('concert_name', text)
+    return text
+
+
+def _read_rocon_app(text: str) -> str:
+    if not text or grammar.is_rocon_app(text):
+        return text
+    names = text.split('/', 1)
+    if not all(map(is_legal_base_name, names)):
+        raise RoconURIValueError(
+            'rocon_app %s is not of the form package/name or name, each a ROS base name'
+            % quoted(text), text, 'rocon_app', text)
+    for name in names:
+        _check_length('rocon_app', name)
+    return text
+
+
+def _check_length(field: str, text: str) -> None:
+    if len(text) > grammar.NAME_LIMIT:
+        raise RoconURIValueError('%s %s is longer than %d characters'
+                                 % (field, quoted(text), grammar.NAME_LIMIT), text, field, text)
