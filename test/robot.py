@@ -65,6 +65,9 @@ CAPABILITIES = [
     ('Pool', 'robot/Loop', sleeper('pool')),
     ('Respawns', '', node('respawns', 'sleep 0.2 exit 1', 'respawn="true" respawn_delay="0.2"')
      + sleeper('beside')),
+    ('Hangs', '', '<param name="never" command="sleep 10000"/>' + sleeper('hangs')),
+    ('OnHangs', 'robot/Hangs', sleeper('on_hangs')),
+    ('Changes', '', sleeper('changes')),
     ('Manager', '', '<arg name="capability_server_nodelet_manager_name"/>' + sleeper('nodelet')),
 ]
 

@@ -34,7 +34,7 @@ class Bonds:
         self._bonds: Dict[str, bondpy.Bond] = {}
         # With these the topic stays connected, so that no bond has to wait for the master.
         self._publisher = rospy.Publisher(topic, Status, queue_size=_QUEUE_SIZE)
-        self._subscriber = rospy.Subscriber(topic, Status, lambda message: None)
+        self._subscriber = rospy.Subscriber(topic, Status, self._heard)
 
     @staticmethod
     def new_id() -> str:
@@ -49,6 +49,8 @@ class Bonds:
         with self._lock:
             self._bonds[bond_id] = bond
         bond.start()
+        # If each bond looked at the heartbeats of all, a hundred bonds would take all the time.
+        bond.sub.unregister()
 
     def end(self) -> None:
         """Break all bonds."""
@@ -56,6 +58,13 @@ class Bonds:
             bonds = list(self._bonds.values())
         for bond in bonds:
             bond.shutdown()
+
+    def _heard(self, status: Status) -> None:
+        """A heartbeat, or a notice of death, goes to the bond that it is of."""
+        with self._lock:
+            bond = self._bonds.get(status.id)
+        if bond is not None:
+            bond._on_bond_status(status)
 
     def _formed(self, bond_id: str) -> None:
         """A client has answered. bondpy would notice its death only after its next heartbeat."""

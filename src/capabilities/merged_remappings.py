@@ -1,7 +1,7 @@
 """What the ROS names of a capability that runs are called, through all that it depends on."""
 from __future__ import annotations
 
-from typing import Dict, Iterable, List, Tuple
+from typing import Dict, Iterable, List, Set, Tuple
 
 from capabilities.instances import CapabilityInstance
 from capabilities.specs.remappings import REMAPPING_KINDS, RemappingSpec
@@ -46,12 +46,15 @@ def merged_remappings(specs: Iterable[RemappingSpec]) -> Dict[str, Dict[str, str
     {'front': 'range'}
     """
     merged: Dict[str, Dict[str, str]] = {kind: {} for kind in REMAPPING_KINDS}
+    between: Dict[str, Set[str]] = {kind: set() for kind in REMAPPING_KINDS}
     for spec in specs:
         for kind, new_names in spec.remappings_by_type.items():
             below = merged[kind]
             resolved = {name: below.get(new_name, new_name)
                         for name, new_name in new_names.items()}
-            for new_name in new_names.values():
-                below.pop(new_name, None)
+            # They stay until the end: another spec may remap to them, too.
+            between[kind].update(below.keys() & set(new_names.values()))
+            between[kind].difference_update(new_names)
             below.update(resolved)
-    return merged
+    return {kind: {name: new_name for name, new_name in new_names.items()
+                   if name not in between[kind]} for kind, new_names in merged.items()}

@@ -11,6 +11,7 @@ import argparse
 import logging
 import os
 import signal
+import socket
 import sys
 from typing import List, Optional, Sequence
 
@@ -232,6 +233,7 @@ def main(sysargv: Optional[List[str]] = None) -> int:
         os.environ['ROS_PACKAGE_PATH'] = os.pathsep.join(
             ([known] if known else []) + package_paths)
     rospy.init_node('capability_server', disable_signals=True)
+    _accept_many()
     try:
         server = CapabilityServer(package_paths, screen=arguments.screen)
     except InvalidConfiguration as error:
@@ -243,6 +245,18 @@ def main(sysargv: Optional[List[str]] = None) -> int:
     except SystemExit as end:
         status = int(end.code or 0)
     return _finish(status)
+
+
+def _accept_many() -> None:
+    """
+    Let as many connections wait as the system does; rospy has only five do so.
+
+    The system drops the sixth, and who has asked tries again after one second, three, seven.
+    """
+    try:
+        rospy.impl.tcpros_base.init_tcpros_server().tcp_ros_server.server_sock.listen(socket.SOMAXCONN)
+    except (AttributeError, OSError):       # another rospy: it stays as it is
+        pass
 
 
 def _leave(number: int, frame: object) -> None:
