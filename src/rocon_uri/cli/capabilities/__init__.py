@@ -18,11 +18,11 @@ JSON: one object each, with "errors": [ERROR, ...]
 from __future__ import annotations
 
 import argparse
-from importlib import import_module
 
 from rocon_uri.cli.display import print_json
 from rocon_uri.cli.packages import PackageReport
 from rocon_uri.cli.running import Refused, RunningServer, Unreachable, add_server
+from rocon_uri.cli.subverbs import add_subverbs
 
 __all__ = ['add_arguments', 'main']
 
@@ -31,28 +31,14 @@ _VERBS = ('list', 'status', 'plan', 'start', 'stop', 'watch')
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the verb takes: the one of its own."""
-    subparsers = parser.add_subparsers(metavar='VERB', title='verbs',
-                                       prog='rocon_uri capabilities')
-    subparsers.required = True
-    for name in _VERBS:
-        verb = import_module('%s.%s' % (__name__, name))
-        description = (verb.__doc__ or '').strip()
-        verb_parser = subparsers.add_parser(
-            name, help=description.partition('\n')[0].rstrip('.'), description=description,
-            allow_abbrev=False, formatter_class=parser.formatter_class)
-        verb.add_arguments(verb_parser)
-        add_server(verb_parser)
-        # It can also stand before the verb, which this must not undo.
-        verb_parser.add_argument('--json', action='store_true', default=argparse.SUPPRESS,
-                                 help='print one JSON object')
-        verb_parser.set_defaults(capabilities_main=verb.main)
+    add_subverbs(parser, __name__, _VERBS, add_server)
 
 
 def main(args: argparse.Namespace) -> int:
     """Do it, and return the exit status."""
     report = PackageReport(args.json)
     try:
-        status: int = args.capabilities_main(RunningServer(args.server), args)
+        status: int = args.verb_main(RunningServer(args.server), args)
         return status
     except Unreachable as error:
         report.bad(str(error))

@@ -1,0 +1,38 @@
+"""Verbs that have verbs of their own, each a module of the package of the verb."""
+from __future__ import annotations
+
+import argparse
+from importlib import import_module
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Callable, Iterable
+
+__all__ = ['add_subverbs']
+
+
+def add_subverbs(parser: argparse.ArgumentParser, package: str, names: Iterable[str],
+                 add_shared: Callable[[argparse.ArgumentParser], None] = lambda parser: None
+                 ) -> None:
+    """
+    Let a verb take the name of one of its own verbs, and its arguments.
+
+    :param parser: that of the verb; the ``main`` of the one that is chosen becomes ``verb_main``
+    :param str package: the package in which each verb is a module
+    :param names: iterable of str, the names of the verbs
+    :param add_shared: adds the arguments that all of them take
+    """
+    subparsers = parser.add_subparsers(metavar='VERB', title='verbs', prog=parser.prog)
+    subparsers.required = True
+    for name in names:
+        verb = import_module('%s.%s' % (package, name))
+        description = (verb.__doc__ or '').strip()
+        verb_parser = subparsers.add_parser(
+            name, help=description.partition('\n')[0].rstrip('.'), description=description,
+            allow_abbrev=False, formatter_class=parser.formatter_class)
+        verb.add_arguments(verb_parser)
+        add_shared(verb_parser)
+        # It can also stand before the verb, which this must not undo.
+        verb_parser.add_argument('--json', action='store_true', default=argparse.SUPPRESS,
+                                 help='print one JSON object')
+        verb_parser.set_defaults(verb_main=verb.main)
