@@ -122,7 +122,7 @@ def test_without_any_package_path_it_says_what_is_needed(apps):
 def test_a_folder_that_is_not_there_is_an_error_and_hides_no_other(apps, tmp_path):
     path = '%s%s%s' % (tmp_path / 'gone', os.pathsep, EXAMPLES)
     status, lines, err = apps('--robot', ROBOT, '--package-path', path)
-    assert status == 2 and len(lines) == 3 and "gone' is no folder" in err
+    assert status == 2 and len(lines) == 3 and "gone' is not a directory" in err
 
 
 def test_a_bad_robot_is_an_error(apps):

@@ -181,7 +181,8 @@ def test_check_of_a_path_takes_the_package_path_for_what_is_around(specs, monkey
 
 
 @pytest.mark.parametrize('name, problem', [
-    ('gone', 'is no folder'), ('empty', 'has no package in it'), ('file', 'is no folder')])
+    ('gone', 'is not a directory'), ('empty', 'has no package in it'),
+    ('file', 'is not a directory')])
 def test_check_of_a_bad_path_is_2_whatever_else_was_found(specs, tmp_path, name, problem):
     (tmp_path / 'empty').mkdir()
     (tmp_path / 'file').write_text('')

@@ -92,7 +92,7 @@ def test_an_empty_file_adds_nothing(tmp_path):
 @pytest.mark.parametrize('text, line, column, problem', [
     ('hardware_platform:\n  robot: [bender\n', 3, 1, ''),
     ('hardware_platform:\n\trobot: [bender]\n', 2, 1, ''),
-    ('a_field:\n', 1, 1, "'a_field' is no field"),
+    ('a_field:\n', 1, 1, "'a_field' is not a field"),
     ('hardware_platform:\n- robot:\n  - ok\n  - "*"\n', 4, 5, "'*' is not a ROS base name"),
     ('hardware_platform:\n  robot:\n    - a/b\n', 3, 7, "'a/b' is not a ROS base name"),
     ('hardware_platform:\n  robot:\n    a b: [c]\n', 3, 5, "'a b' is not a ROS base name"),
@@ -100,12 +100,12 @@ def test_an_empty_file_adds_nothing(tmp_path):
     ('operating_system: [ubuntu: [on]]\n', 1, 29, 'True is not text'),
     ('hardware_platform:\n  phone:\n  - pr2\n', 3, 5, "'pr2' cannot be in 'phone', since it is in"),
     ('hardware_platform:\n  robot:\n  - [a]\n', 3, 5, 'a list stands where a value'),
-    ('hardware_platform: {a: }\npc: [a]\n', 2, 1, "'pc' is no field"),
+    ('hardware_platform: {a: }\npc: [a]\n', 2, 1, "'pc' is not a field"),
     ('hardware_platform:\n  a: [b]\n  a: [c]\n', 3, 3, "duplicate key 'a'"),
     ('hardware_platform: [a: {b: }, c: {d: , d: }]\n', 1, 40, "duplicate key 'd'"),
-    ('bender\n', 1, 1, "'bender' is no field"),
-    ('3\n', 1, 1, "'3' is no field"),
-    ('"%s": 3\n' % ('x' * 1000), 1, 1, 'is no field'),
+    ('bender\n', 1, 1, "'bender' is not a field"),
+    ('3\n', 1, 1, "'3' is not a field"),
+    ('"%s": 3\n' % ('x' * 1000), 1, 1, 'is not a field'),
     ('"x\\n%s": 3\n' % ('x' * 1000), 1, 1, "'x\\n"),
 ])
 def test_a_fault_says_where_it_is(tmp_path, text, line, column, problem):

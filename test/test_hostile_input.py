@@ -316,7 +316,7 @@ def test_the_command_says_what_is_outside_the_package(workspace):
      "operating_system 'linux/ours' is not a ROS base name"),
     ('hardware_platform:\n  "*": [pr2]', '2:3', "hardware_platform '*' is not a ROS base name"),
     ('application_framework:\n- 1.0', '2:3', 'application_framework 1.0 is not text'),
-    ('name: [bob]', '1:1', "'name' is no field with registered values"),
+    ('name: [bob]', '1:1', "'name' is not a field with registered values"),
     ('hardware_platform: ' + '[' * 200, '1:119', 'nested deeper than 100'),
     ('hardware_platform: &a\n  robot: *a', '2:10', "alias '*a' is within"),
 ])

@@ -173,10 +173,10 @@ def test_a_vocabulary_of_ones_own_is_never_completed():
 
 
 @pytest.mark.parametrize('rules, path, problem', [
-    ({'robots': ['a']}, ('robots',), "'robots' is no field with registered values"),
-    ({'name': ['a']}, ('name',), "'name' is no field"),
-    ({3: ['a']}, (3,), "'3' is no field"),
-    (['robots'], (0,), "'robots' is no field"),
+    ({'robots': ['a']}, ('robots',), "'robots' is not a field with registered values"),
+    ({'name': ['a']}, ('name',), "'name' is not a field"),
+    ({3: ['a']}, (3,), "'3' is not a field"),
+    (['robots'], (0,), "'robots' is not a field"),
     ([['hardware_platform']], (0,), 'a list stands where'),
     ({'hardware_platform': ['*']}, ('hardware_platform', 0), "hardware_platform '*' is not a ROS"),
     ({'hardware_platform': ['a/b']}, ('hardware_platform', 0), "'a/b' is not a ROS base name"),

@@ -21,8 +21,10 @@ it. A path that leads out of its package is followed.
 from __future__ import annotations
 
 import logging
+from typing import Callable, Dict, Iterable, List, Mapping, Optional, Tuple, TypeVar, Union
 
 from catkin_pkg.package import InvalidPackage, parse_package_string
+from catkin_pkg.package import Package as CatkinPackage
 
 from capabilities.spec_index import (
     DuplicateNameException, InterfaceNameNotFoundException, SpecIndex)
@@ -30,18 +32,9 @@ from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import capability_interface_from_file_path
 from capabilities.specs.provider import capability_provider_from_file_path
 from capabilities.specs.semantic_interface import semantic_capability_interface_from_file_path
-from rocon_uri.sources.packages import PackageError, as_package, find_packages, read_manifest
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Callable, Dict, Iterable, List, Mapping, Optional, Tuple, TypeVar, Union
-
-    from catkin_pkg.package import Package as CatkinPackage
-
-    from rocon_uri.sources.packages import Package
-
-    S = TypeVar('S')
-    SpecFileIndex = Dict[str, Dict[str, List[str]]]
+from rocon_uri.sources.located import Fault
+from rocon_uri.sources.packages import (
+    Package, PackageError, as_package, find_packages, read_manifest)
 
 __all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'PackageError', 'SpecIndex',
            'catkin_package', 'package_index_from_package_path',
@@ -51,6 +44,9 @@ __all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'PackageE
 EXPORTS = ('capability_interface', 'semantic_capability_interface', 'capability_provider')
 
 _logger = logging.getLogger('capabilities.discovery')
+
+Spec = TypeVar('Spec')
+SpecFileIndex = Dict[str, Dict[str, List[str]]]
 
 
 def package_index_from_package_path(
@@ -136,7 +132,7 @@ def spec_file_index_from_package_index(
 
 
 def spec_index_from_spec_file_index(
-        spec_file_index: SpecFileIndex) -> Tuple[SpecIndex, List[Exception]]:
+        spec_file_index: SpecFileIndex) -> Tuple[SpecIndex, List[Fault]]:
     """
     An index of all specs in some files.
 
@@ -156,9 +152,10 @@ def spec_index_from_spec_file_index(
     []
     """
     index = SpecIndex()
-    errors: List[Exception] = []
+    errors: List[Fault] = []
 
-    def add_all(tag: str, read: Callable[[str], S], add: Callable[[S, str, str], None]) -> None:
+    def add_all(tag: str, read: Callable[[str], Spec],
+                add: Callable[[Spec, str, str], None]) -> None:
         for package_name, spec_files in spec_file_index.items():
             for path in spec_files.get(tag, ()):
                 try:

@@ -17,7 +17,7 @@ from rocon_uri.sources.yaml_data import value_place
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple, TypeVar, Union
+    from typing import Callable, Dict, Iterable, List, Optional, Tuple, TypeVar, Union
 
     from capabilities.specs.interface import CapabilityInterface
     from capabilities.specs.provider import CapabilityProvider
@@ -77,7 +77,7 @@ class InterfaceNameNotFoundException(_RefusedSpec):
         """The problem, and what was probably meant."""
         return self.problem + did_you_mean(self.suggestions)
 
-    def __reduce__(self) -> Tuple[Any, ...]:
+    def __reduce__(self) -> Tuple[object, ...]:
         return type(self), (*self.args, self.suggestions)
 
 

@@ -11,58 +11,33 @@ vocabulary of what is read here.
 from __future__ import annotations
 
 import os
-from typing import Any, List, Mapping, NamedTuple, Sequence, Tuple
+from typing import List, Mapping, Tuple
 
 from rocon_uri.sources.checked import Reading
 from rocon_uri.sources.packages import Package, PackageError, find_packages
 from rocon_uri.sources.yaml_data import YamlError
 from rocon_uri.sources.yaml_source import load_file
 
-__all__ = ['RulesFile', 'read_rules_file', 'rules_paths', 'rules_paths_of_machine']
+__all__ = ['read_rules_file', 'rules_paths', 'rules_paths_of_machine']
 
 
-class RulesFile(NamedTuple):
-    """A file of rules that is YAML; what it says is not checked yet."""
-
-    #: where it is
-    path: str
-    #: what it holds, as `rocon_uri.sources.yaml_source.load_file` returns it
-    rules: Any
-
-    def position(self, path: Sequence[Any]) -> Tuple[int, int]:
-        """
-        Where in the file something is.
-
-        :param path: sequence of the keys and indices that lead to it
-        :returns: (int, int), line and column from 1
-        """
-        line, column = 1, 1
-        rules = self.rules
-        for key in path:
-            if isinstance(rules, dict):
-                line, column = rules.key_position(key)      # type: ignore[attr-defined]
-            else:
-                line, column = rules.item_position(key)
-            rules = rules[key]
-        return line, column
-
-
-def read_rules_file(path: str) -> RulesFile:
+def read_rules_file(path: str) -> object:
     """
     Read one file of rules.
 
     :param str path: a YAML or JSON file
-    :returns: `RulesFile`
+    :returns: what it holds, as `rocon_uri.sources.yaml_source.load_file` returns it; whether that
+        fits a vocabulary is not checked yet
     :raises YamlError: `rocon_uri.sources.yaml_data.YamlError`, if it is not YAML or has a
         duplicate key
     :raises OSError: if it cannot be read
 
-    >>> read_rules_file('examples/workspace/cafe_cart/rules/robots.yaml').position([])
-    (1, 1)
+    >>> read_rules_file('examples/workspace/cafe_cart/rules/robots.yaml')
+    {'hardware_platform': {'robot': ['cafe_cart']}}
     """
-    rules = load_file(path)
+    rules: object = load_file(path)
     Reading(path, YamlError).refuse_duplicates(rules)    # one of the two would be lost
-    return RulesFile(path, rules)
+    return rules
 
 
 def rules_paths(packages: Mapping[str, Package]) -> List[str]:

@@ -11,7 +11,8 @@ from rocon_uri.sources.ros_names import is_legal_base_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
+    from typing import Dict, Iterator, List, Mapping, Optional, Tuple
+    Member = Tuple[object, object, Tuple[object, ...]]      # name, rules below it, path
 
 __all__ = ['FieldVocabulary', 'RulesError', 'members']
 
@@ -26,13 +27,13 @@ class RulesError(ValueError):
     ``problem`` and ``path`` are attributes too.
     """
 
-    def __init__(self, problem: str, path: Tuple[Any, ...] = ()) -> None:
+    def __init__(self, problem: str, path: Tuple[object, ...] = ()) -> None:
         super().__init__(problem)
         self.problem = problem
         self.path = path
 
 
-def members(rules: Any, path: Tuple[Any, ...] = ()) -> Iterator[Tuple[Any, Any, Tuple[Any, ...]]]:
+def members(rules: object, path: Tuple[object, ...] = ()) -> Iterator[Member]:
     """
     The names directly below a group of rules, in whichever way it is written down.
 
@@ -156,7 +157,7 @@ class FieldVocabulary:
                 waiting.extend(reversed(self._children[value]))
         return found
 
-    def extended(self, rules: Any, path: Tuple[Any, ...] = ()) -> 'FieldVocabulary':
+    def extended(self, rules: object, path: Tuple[object, ...] = ()) -> 'FieldVocabulary':
         """
         This vocabulary with more values and groups.
 
@@ -167,10 +168,12 @@ class FieldVocabulary:
         """
         parents = dict(self._parents)
         # In the order of the rules and in depth: what a group is in is known once it is extended.
-        waiting = [(None, entry) for entry in members(rules, path)][::-1]
+        waiting: List[Tuple[Optional[str], Member]] = [
+            (None, entry) for entry in members(rules, path)]
+        waiting.reverse()
         while waiting:
-            parent, (name, below, place) = waiting.pop()
-            _check_name(self.name, name, place)
+            parent, (given, below, place) = waiting.pop()
+            name = _checked_name(self.name, given, place)
             known = parents.setdefault(name, parent)
             if parent is not None and known != parent:
                 raise RulesError("%s '%s' cannot be in '%s', since it is %s already" % (
@@ -179,9 +182,10 @@ class FieldVocabulary:
         return FieldVocabulary(self.name, parents)
 
 
-def _check_name(field: str, name: Any, path: Tuple[Any, ...]) -> None:
+def _checked_name(field: str, name: object, path: Tuple[object, ...]) -> str:
     if not isinstance(name, str):
         raise RulesError('%s %r is not text; put it in quotes' % (field, name), path)
     if not is_legal_base_name(name) or len(name) > NAME_LIMIT:
         raise RulesError('%s %s is not a ROS base name (a letter, then letters, digits and _)'
                          % (field, quoted(name)), path)
+    return name

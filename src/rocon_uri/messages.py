@@ -10,12 +10,12 @@ from rocon_uri.uri import RoconURI
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any
+    from rocon_uri.msg import RoconURI as Message
 
 __all__ = ['from_msg', 'to_msg']
 
 
-def to_msg(uri: RoconURI) -> Any:
+def to_msg(uri: RoconURI) -> Message:
     """
     The message that says what this URI says.
 
@@ -36,7 +36,7 @@ def to_msg(uri: RoconURI) -> Any:
                    rocon_app=uri.rocon_app)
 
 
-def from_msg(msg: Any) -> RoconURI:
+def from_msg(msg: Message) -> RoconURI:
     """
     The URI that this message says, checked as :func:`rocon_uri.parse` checks a text.
 

@@ -19,6 +19,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple
 
+    from rocon_uri.sources.located import Fault
     from rocon_uri.sources.packages import Package
 
 __all__ = ['Vocabulary', 'complete', 'completed', 'current', 'precedence', 'read_rules',
@@ -44,7 +45,7 @@ class Vocabulary:
 
     __slots__ = ('_fields', '_opened', 'is_open', 'serial', 'fields_read', 'uris_read')
 
-    def __init__(self, rules: Any) -> None:
+    def __init__(self, rules: object) -> None:
         fields = {name: FieldVocabulary(name, {}) for name in VOCABULARY_FIELDS}
         self._adopt(_extended(fields, rules))
 
@@ -113,7 +114,7 @@ class Vocabulary:
                         self if self.is_open else Vocabulary._of(self._fields, is_open=True))
         return self._opened
 
-    def extended(self, rules: Any) -> 'Vocabulary':
+    def extended(self, rules: object) -> 'Vocabulary':
         """
         This vocabulary with more values and groups.
 
@@ -139,11 +140,11 @@ class Vocabulary:
 
 
 def _extended(fields: Mapping[str, FieldVocabulary],
-              rules: Any) -> Dict[str, FieldVocabulary]:
+              rules: object) -> Dict[str, FieldVocabulary]:
     extended = dict(fields)
     for name, below, path in members(rules):
-        if name not in VOCABULARY_FIELDS:
-            raise RulesError('%s is no field with registered values; these are: %s'
+        if not isinstance(name, str) or name not in VOCABULARY_FIELDS:
+            raise RulesError('%s is not a field with registered values; these are: %s'
                              % (quoted(str(name)), ', '.join(VOCABULARY_FIELDS)), path)
         extended[name] = extended[name].extended(below, path)
     return extended
@@ -169,7 +170,7 @@ def read_rules(vocabulary: Vocabulary, path: str) -> Vocabulary:
     return extended
 
 
-def vocabulary_of_packages(packages: Mapping[str, Package]) -> Tuple[Vocabulary, List[Exception]]:
+def vocabulary_of_packages(packages: Mapping[str, Package]) -> Tuple[Vocabulary, List[Fault]]:
     """
     What this machine knows, and what these packages add.
 
@@ -205,19 +206,19 @@ def with_exported_rules(vocabulary: Vocabulary) -> Vocabulary:
 
 
 def _with_rules_files(vocabulary: Vocabulary, paths: Iterable[str],
-                      ) -> Tuple[Vocabulary, List[Exception]]:
+                      ) -> Tuple[Vocabulary, List[Fault]]:
     """One new vocabulary for all files without a fault, and the faults of the others."""
     from rocon_uri.exported_rules import read_rules_file
-    from rocon_uri.sources.yaml_data import YamlError
+    from rocon_uri.sources.yaml_data import YamlError, place_below
     fields = vocabulary._fields
-    faults: List[Exception] = []
+    faults: List[Fault] = []
     for path in paths:
         try:
-            file = read_rules_file(path)
+            rules = read_rules_file(path)
             try:
-                fields = _extended(fields, file.rules)
+                fields = _extended(fields, rules)
             except RulesError as error:
-                raise YamlError(error.problem, path, *file.position(error.path)) from None
+                raise YamlError(error.problem, path, *place_below(rules, error.path)) from None
         except (OSError, YamlError) as error:
             faults.append(error)
     if all(fields[name] is field for name, field in vocabulary._fields.items()):
@@ -225,7 +226,7 @@ def _with_rules_files(vocabulary: Vocabulary, paths: Iterable[str],
     return Vocabulary._of(fields, vocabulary.is_open), faults
 
 
-def _warn(text: str, fault: Exception) -> None:
+def _warn(text: str, fault: Fault) -> None:
     import logging      # costs more than the rest of the package, and few need it
     logging.getLogger('rocon_uri').warning(text, fault)
 

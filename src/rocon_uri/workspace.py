@@ -20,6 +20,7 @@ from capabilities.specs.semantic_interface import SemanticCapabilityInterface
 from rocon_uri.apps.rapp import Rapp
 from rocon_uri.apps.rapps import (
     rapp_file_index_from_package_index, rapps_from_rapp_file_index, with_inheritance)
+from rocon_uri.sources.located import Fault as FileFault
 from rocon_uri.sources.launch_file import LaunchFiles
 from rocon_uri.sources.packages import Package, PackageError, find_packages
 from rocon_uri.vocabulary import Vocabulary, vocabulary_of_packages
@@ -52,7 +53,7 @@ class Workspace(NamedTuple):
     vocabulary: Vocabulary
     #: What is wrong, in the order of packages, specs, rapps and rules: `PackageError`;
     #: the errors of `spec_index_from_spec_file_index`; `InvalidRapp`; `YamlError` and `OSError`
-    faults: List[Exception]
+    faults: List[FileFault]
 
     def specs(self) -> Iterator[Tuple[str, Union[Capability, CapabilityProvider]]]:
         """All specs, each as (path of its file, spec)."""
@@ -89,7 +90,7 @@ def read_workspace(paths: Iterable[str]) -> Workspace:
     return load_workspace(find_packages(paths, faults), faults)
 
 
-def load_workspace(packages: Mapping[str, Package], faults: Iterable[Exception] = ()) -> Workspace:
+def load_workspace(packages: Mapping[str, Package], faults: Iterable[FileFault] = ()) -> Workspace:
     """
     All that packages export that were found already.
 

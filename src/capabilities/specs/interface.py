@@ -148,9 +148,9 @@ def _read_element(interface: Interface, section: str, elements: CheckedMapping, 
 def _read_dynamic_parameters(interface: Interface, sections: CheckedMapping) -> None:
     """Add the names in the list of dynamic parameters."""
     names = sections.sequence('dynamic_parameters', 'a list of names')
-    for index, name in enumerate(names):
+    for index, given in enumerate(names):
         place = value_place(names, index)
-        sections.reading.text(name, 'the name of a dynamic_parameter', place)
+        name = sections.reading.text(given, 'the name of a dynamic_parameter', place)
         try:
             interface.add_dynamic_parameter(name)
         except RuntimeError:

@@ -6,7 +6,7 @@ import sys
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Callable
+    from typing import Callable
 
 __all__ = ['painter', 'print_json']
 
@@ -26,7 +26,7 @@ def painter() -> Callable[[str, str], str]:
     return lambda text, style: text
 
 
-def print_json(answer: Any) -> None:
+def print_json(answer: object) -> None:
     """Print an object, for people to read as well."""
     import json     # here, since most calls do not need it
     print(json.dumps(answer, indent=2))

@@ -21,8 +21,9 @@ from rocon_uri.vocabulary import complete
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Any, Dict
+    from typing import Dict
     from rocon_uri.field_vocabulary import FieldVocabulary
+    Tree = Dict[str, 'Tree']
 
 __all__ = ['add_arguments', 'main']
 
@@ -58,8 +59,8 @@ def _show(field: FieldVocabulary) -> None:
         waiting.extend((member, depth + 1) for member in reversed(members))
 
 
-def _tree(field: FieldVocabulary) -> Dict[str, Any]:
-    tree: Dict[str, Any] = {}
+def _tree(field: FieldVocabulary) -> Tree:
+    tree: Tree = {}
     waiting = [(value, tree) for value in reversed(field.children())]
     while waiting:
         value, group = waiting.pop()

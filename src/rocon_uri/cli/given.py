@@ -12,7 +12,7 @@ from rocon_uri.uri import parse
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Iterator, List, Optional
+    from typing import Dict, Iterator, List, Optional, Sequence, Tuple
     from rocon_uri.uri import RoconURI
 
 __all__ = ['GivenURI', 'Report', 'say']
@@ -55,7 +55,7 @@ class GivenURI:
             say('rocon_uri: note: %s is read as %s, since %s is a hardware_platform and no concert'
                 % (quoted(self.text), quoted(self.uri.short), self.uri.hardware_platform))
 
-    def as_json(self) -> Dict[str, Any]:
+    def as_json(self) -> Dict[str, object]:
         """URI, as ``rocon_uri --help`` describes it."""
         uri = self.uri
         return {
@@ -85,7 +85,7 @@ class Report:
 
     def __init__(self, json: bool) -> None:
         self.status = 0
-        self.errors: List[Dict[str, Any]] = []
+        self.errors: List[Dict[str, object]] = []
         self._json = json
 
     def read(self, text: str, file: Optional[str] = None,
@@ -127,7 +127,9 @@ class Report:
                             batch.append(given)
                 yield batch
         except OSError as error:
-            self._unreadable(name, error)
+            message = 'cannot read %s: %s' % (quoted_path(name), error.strerror or error)
+            say('rocon_uri: ' + message)
+            self.note(message, name)
 
     def bad_uri(self, error: RoconURIValueError, file: Optional[str] = None,
                 line: Optional[int] = None) -> None:
@@ -138,22 +140,20 @@ class Report:
         :param file: as `GivenURI` takes
         :param line: as `GivenURI` takes
         """
-        self.status = 2
         if file is None:
             say('rocon_uri: ' + error.pretty())
         else:
             say('%s:%s: %s' % (file, line, error))
-        if self._json:
-            self.errors.append({
-                'message': str(error), 'uri': error.uri, 'field': error.field,
-                'value': error.value, 'span': error.span, 'suggestions': error.suggestions,
-                'file': file, 'line': line})
+        self.note(str(error), file, line, error.suggestions, error.uri, error.field, error.value,
+                  error.span)
 
-    def _unreadable(self, file: str, error: OSError) -> None:
+    def note(self, message: str, file: Optional[str], line: Optional[int] = None,
+             suggestions: Sequence[str] = (), uri: Optional[str] = None,
+             field: Optional[str] = None, value: Optional[str] = None,
+             span: Optional[Tuple[int, int]] = None) -> None:
+        """Keep an ERROR with these members, without saying it."""
         self.status = 2
-        message = 'cannot read %s: %s' % (quoted_path(file), error.strerror or error)
-        say('rocon_uri: ' + message)
         if self._json:
             self.errors.append({
-                'message': message, 'uri': None, 'field': None, 'value': None, 'span': None,
-                'suggestions': [], 'file': file, 'line': None})
+                'message': message, 'uri': uri, 'field': field, 'value': value, 'span': span,
+                'suggestions': list(suggestions), 'file': file, 'line': line})

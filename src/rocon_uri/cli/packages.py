@@ -10,8 +10,9 @@ from rocon_uri.sources.wording import quoted_path
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Any, Iterable, List, Optional
+    from typing import List, Optional, Sequence
 
+    from rocon_uri.sources.located import Fault
     from rocon_uri.workspace import Workspace
 
 __all__ = ['PackageReport', 'add_package_path', 'escape_unencodable', 'package_path',
@@ -25,7 +26,7 @@ def add_package_path(parser: argparse.ArgumentParser) -> None:
                         'ROS_PACKAGE_PATH)' % os.pathsep)
 
 
-def printable(text: Any) -> str:
+def printable(text: object) -> str:
     """
     What somebody wrote into a file, fit for a terminal.
 
@@ -49,22 +50,19 @@ class PackageReport(Report):
     """A report that also takes what is wrong with files that are not lists of URIs."""
 
     def bad(self, message: str, file: Optional[str] = None, line: Optional[int] = None,
-            suggestions: Iterable[str] = ()) -> None:
+            suggestions: Sequence[str] = ()) -> None:
         """
         Report a fault.
 
         :param str message: one line
         :param file: str, where it is, if it is in a file; the message has it, too
         :param line: int, the line there, from 1
-        :param suggestions: iterable of str, what was probably meant
+        :param suggestions: sequence of str, what was probably meant
         """
-        self.status = 2
         say(message if file else 'rocon_uri: ' + message)
-        self.errors.append({
-            'message': message, 'uri': None, 'field': None, 'value': None, 'span': None,
-            'suggestions': list(suggestions), 'file': file, 'line': line})
+        self.note(message, file, line, suggestions)
 
-    def bad_file(self, fault: Any) -> None:
+    def bad_file(self, fault: Fault) -> None:
         """
         Report what discovery or the reading of a file has found.
 
@@ -96,7 +94,7 @@ def package_path(args: argparse.Namespace, report: PackageReport,
     if args.package_path is not None:
         for folder in folders:
             if not os.path.isdir(folder):
-                report.bad('%s is no folder' % quoted_path(folder))
+                report.bad('%s is not a directory' % quoted_path(folder))
     return folders
 
 

@@ -5,7 +5,9 @@ import sys
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Optional
+    from typing import ContextManager, Optional, Union
+
+    from tqdm import tqdm
 
 __all__ = ['beside_progress', 'progress']
 
@@ -25,7 +27,7 @@ class _NoBar:
         """So many more bytes have been read."""
 
 
-def progress(size: Optional[int]) -> Any:
+def progress(size: Optional[int]) -> Union[tqdm, _NoBar]:
     """
     Show how far a file has been read, on stderr if that is a terminal.
 
@@ -45,11 +47,11 @@ def progress(size: Optional[int]) -> Any:
     return _NoBar()
 
 
-def beside_progress() -> Any:
+def beside_progress() -> ContextManager[object]:
     """
     Take the bar away while something else is printed.
 
     :returns: context manager
     """
-    tqdm = sys.modules.get('tqdm')
-    return tqdm.tqdm.external_write_mode(file=sys.stderr) if tqdm else _NoBar()
+    loaded = sys.modules.get('tqdm')
+    return loaded.tqdm.external_write_mode(file=sys.stderr) if loaded else _NoBar()

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
+from typing import Collection, Iterable, List, Mapping
 
 from rocon_uri.lint.checked_file import is_inside
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
@@ -18,12 +19,9 @@ from rocon_uri.lint.interactions_files import check_interactions_file, interacti
 from rocon_uri.lint.manifest import check_manifest
 from rocon_uri.lint.rapp_files import check_rapp
 from rocon_uri.lint.spec_files import check_spec
+from rocon_uri.sources.located import Fault
 from rocon_uri.sources.packages import Package, PackageError, find_packages
 from rocon_uri.workspace import load_workspace
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, Collection, Iterable, List, Mapping
 
 __all__ = ['ERROR', 'Finding', 'WARNING', 'check_package_index', 'check_packages']
 
@@ -44,7 +42,7 @@ def check_packages(paths: Iterable[str], package_path: Iterable[str] = ()) -> Li
 
 
 def check_package_index(checked: Mapping[str, Package], others: Mapping[str, Package],
-                        faults: Iterable[Exception] = ()) -> List[Finding]:
+                        faults: Iterable[Fault] = ()) -> List[Finding]:
     """
     The same for packages that were found already.
 
@@ -87,11 +85,11 @@ def _is_in_one_of(path: str, folders: Collection[str]) -> bool:
     return folder in folders
 
 
-def _path(fault: Any) -> str:
+def _path(fault: Fault) -> str:
     return str(fault.filename if isinstance(fault, OSError) else fault.file_name)
 
 
-def _finding(fault: Any) -> Finding:
+def _finding(fault: Fault) -> Finding:
     if isinstance(fault, OSError):
         return Finding(_path(fault), None, None, ERROR,
                        'cannot be read: %s' % (fault.strerror or fault))

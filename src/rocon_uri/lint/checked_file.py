@@ -2,8 +2,7 @@
 from __future__ import annotations
 
 import os
-import re
-from typing import Any, Iterable, List, Mapping, Optional, Sequence
+from typing import Iterable, List, Mapping, Optional, Sequence
 
 from capabilities.specs.interface import CapabilityInterface
 from rocon_uri.exceptions import RoconURIValueError
@@ -12,6 +11,7 @@ from rocon_uri.sources.checked import CheckedMapping, Reading
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.sources.yaml_data import split_lines
 from rocon_uri.sources.yaml_source import read_file
 from rocon_uri.uri import parse
 from rocon_uri.vocabulary import Vocabulary
@@ -19,8 +19,6 @@ from rocon_uri.vocabulary import Vocabulary
 __all__ = ['CheckedFile', 'is_inside']
 
 _SUGGESTING = 20    # findings: with more, no near misses are looked for, which takes long
-
-_split_lines = re.compile('\r\n|[\r\n\x85\u2028\u2029]').split      # as YAML counts them
 
 
 def is_inside(path: str, folder: str) -> bool:
@@ -78,7 +76,7 @@ class CheckedFile(Reading):
         """The end of an error: what was expected; empty if there are many findings already."""
         return super().expectation(found, known) if self._has_few_findings() else ''
 
-    def read(self) -> Any:
+    def read(self) -> object:
         """What the file holds, read as YAML; None if it cannot be read, which is noted."""
         try:
             content = read_file(self.path)
@@ -184,7 +182,7 @@ class CheckedFile(Reading):
             return place
         if self._lines is None:
             try:
-                self._lines = _split_lines(read_file(self.path).decode('utf-8', 'replace'))
+                self._lines = split_lines(read_file(self.path).decode('utf-8', 'replace'))
             except OSError:
                 self._lines = []
         shown = self._lines[line - 1][column - 1:] if line <= len(self._lines) else ''

@@ -1,13 +1,10 @@
 """Findings as a report of test results, in the form of JUnit that catkin and CI servers read."""
 from __future__ import annotations
 
+from typing import List
 from xml.sax.saxutils import escape, quoteattr
 
 from rocon_uri.lint.finding import ERROR, Finding
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import List
 
 __all__ = ['junit_text']
 

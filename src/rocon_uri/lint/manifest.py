@@ -1,17 +1,13 @@
 """What can be wrong with a ``package.xml`` that names its package, and with its exports."""
 from __future__ import annotations
 
+from typing import List
+
 from capabilities.discovery import EXPORTS, catkin_package
 from rocon_uri.lint.checked_file import CheckedFile
-from rocon_uri.sources.packages import PackageError
+from rocon_uri.lint.finding import Finding
+from rocon_uri.sources.packages import Package, PackageError
 from rocon_uri.sources.wording import quoted
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import List
-
-    from rocon_uri.lint.finding import Finding
-    from rocon_uri.sources.packages import Package
 
 __all__ = ['check_manifest']
 

@@ -23,7 +23,7 @@ mapping' or 'a list'. ``%s`` in ``what`` is the key.
 from __future__ import annotations
 
 import re
-from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, List, Optional, Sequence, Union
 
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.wording import did_you_mean, near_misses, shown
@@ -70,7 +70,7 @@ class Reading:
         meant = did_you_mean(near_misses(found, known)) if isinstance(found, str) else ''
         return meant or ' (expected %s)' % ', '.join(known)
 
-    def data(self, content: Union[str, bytes]) -> Any:
+    def data(self, content: Union[str, bytes]) -> object:
         """
         What a text holds, read as YAML.
 
@@ -142,7 +142,7 @@ class CheckedMapping:
 
     __slots__ = ('reading', 'data', '_what', '_key')
 
-    def __init__(self, reading: Reading, data: Dict[Any, Any], what: str,
+    def __init__(self, reading: Reading, data: object, what: str,
                  key: object = None) -> None:
         self.reading = reading
         self.data: Any = data
@@ -215,7 +215,7 @@ class CheckedMapping:
             mapping.refuse_duplicates()
         return mapping
 
-    def sequence(self, key: object, expected: str = 'a list') -> List[Any]:
+    def sequence(self, key: object, expected: str = 'a list') -> List[object]:
         """The list that a key may have, unread; empty for nothing or ``{}``, or if refused."""
         value = self.data.get(key)
         if isinstance(value, (list, tuple)):
@@ -224,7 +224,7 @@ class CheckedMapping:
             self.reading.refuse(self.wrong(key, expected))
         return []
 
-    def required(self, key: str, known: Sequence[str] = ()) -> Any:
+    def required(self, key: str, known: Sequence[str] = ()) -> object:
         """
         The value that a key must have, unread.
 

@@ -1,11 +1,11 @@
 """What says FILE:LINE:COLUMN: PROBLEM: errors, warnings and findings."""
 from __future__ import annotations
 
-from typing import Optional, Tuple
+from typing import Optional, Tuple, Union
 
 from rocon_uri.sources.wording import printable
 
-__all__ = ['NOWHERE', 'Located', 'LocatedError', 'Place', 'located']
+__all__ = ['NOWHERE', 'Fault', 'Located', 'LocatedError', 'Place', 'located']
 
 #: A line and a column, counted from 1; ``None`` for both where they are not known.
 Place = Tuple[Optional[int], Optional[int]]
@@ -80,3 +80,7 @@ class LocatedError(Located, Exception):
         self.file_name = file_name
         self.line = line
         self.column = column
+
+
+#: what can be wrong with a file: it cannot be read, or something in it is wrong
+Fault = Union[OSError, LocatedError]

@@ -20,7 +20,7 @@ from __future__ import annotations
 import codecs
 import os
 import re
-from typing import Dict, Iterable, Iterator, List, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Dict, Iterable, Iterator, List, NamedTuple, Optional, Union
 from xml.parsers import expat
 
 from rocon_uri.sources.located import LocatedError
@@ -28,7 +28,6 @@ from rocon_uri.sources.wording import quoted, quoted_path
 from rocon_uri.sources.yaml_data import MAX_SIZE
 from rocon_uri.sources.yaml_source import read_file
 
-TYPE_CHECKING = False
 if TYPE_CHECKING:
     from catkin_pkg.package import Package as CatkinPackage
 

@@ -2,19 +2,20 @@
 from __future__ import annotations
 
 import re
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 
 __all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'end_position',
-           'key_place', 'place_of', 'value_place']
+           'key_place', 'place_below', 'place_of', 'split_lines', 'value_place']
 
 Position = Tuple[int, int]
 
 MAX_SIZE = 2 ** 20      # bytes of a file, characters of a text, and what aliases may add
 MAX_DEPTH = 100         # collections in one another
 
-_split_lines = re.compile('\r\n|[\r\n\x85\u2028\u2029]').split
+#: the lines of a text, as YAML counts them
+split_lines = re.compile('\r\n|[\r\n\x85\u2028\u2029]').split
 
 
 class YamlError(LocatedError, ValueError):
@@ -130,7 +131,7 @@ class YamlSequence(list):   # type: ignore[type-arg]
 
 def end_position(text: str) -> Position:
     """The line and column, counted from 1, at which this text ends."""
-    lines = _split_lines(text)
+    lines = split_lines(text)
     return len(lines), len(lines[-1]) + 1
 
 
@@ -147,6 +148,24 @@ def key_place(mapping: object, key: object) -> Place:
         return mapping.key_position(key) if isinstance(mapping, YamlMapping) else NOWHERE
     except KeyError:    # put in since
         return NOWHERE
+
+
+def place_below(data: object, path: Sequence[object]) -> Place:
+    """
+    Where in a text something is that keys and indices lead to.
+
+    :param data: what was read from the text
+    :param path: sequence of the keys and indices; none lead to the start of the text
+
+    >>> from rocon_uri.sources.yaml_source import load
+    >>> place_below(load('a: [b, c]', 'f'), ['a', 1])
+    (1, 8)
+    """
+    place: Place = (1, 1)
+    for key in path:
+        place = key_place(data, key) if isinstance(data, dict) else value_place(data, key)
+        data = data[key]    # type: ignore[index]
+    return place
 
 
 def value_place(collection: object, key: object) -> Place:

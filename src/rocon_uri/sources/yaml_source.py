@@ -11,7 +11,7 @@ also answer where in the text a key, a value or an item begins:
 >>> source['topics'].key_position('scan'), source['topics'].value_position('scan')
 ((2, 3), (2, 9))
 
-Positions are (line, column), both counted from 1. Any text is either read, or refused with one
+Positions are (line, column), both counted from 1. Each text is either read, or refused with one
 `YamlError` that says where:
 
 >>> load('topics: [', 'laser.yaml')

@@ -13,7 +13,7 @@ or as GitHub takes it. An error is what does not work, or not as it says; a
 warning is what works but is probably not what was meant.
 
 Exit status: 0 if there is no error, warnings or not; 1 if there is one; 2 if a
-PATH is no folder or has no package in it, though the others are checked
+PATH is not a directory or has no package in it, though the others are checked
 JSON: {"findings": [{"file", "line", "column", "severity", "text"}, ...],
 "packages": [NAME, ...], "errors": [ERROR, ...]}, with null for the line and the
 column of what is in no one place
@@ -31,7 +31,9 @@ from rocon_uri.sources.wording import quoted_path
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Any, Dict, List, Tuple
+    from typing import Dict, List, Tuple
+
+    from rocon_uri.sources.packages import Package, PackageError
 
 __all__ = ['add_arguments', 'main']
 
@@ -63,8 +65,8 @@ def main(args: argparse.Namespace) -> int:
         checked, faults = _given_packages(args.paths, report)
         others = find_packages(around)
     else:
-        faults, others = [], {}
-        checked = find_packages(around, faults)
+        faults = []
+        checked, others = find_packages(around, faults), {}
     findings = check_package_index(checked, others, faults)
     if args.json:
         print_json({'findings': [finding.as_json() for finding in findings],
@@ -81,17 +83,18 @@ def main(args: argparse.Namespace) -> int:
     return report.status or (1 if errors else 0)
 
 
-def _given_packages(paths: List[str], report: PackageReport) -> Tuple[Dict[str, Any], List[Any]]:
+def _given_packages(paths: List[str], report: PackageReport
+                    ) -> Tuple[Dict[str, Package], List[PackageError]]:
     """The packages in some folders, which should have some, and what is wrong with them."""
     from rocon_uri.sources.packages import find_packages      # see main
-    packages: Dict[str, Any] = {}
-    faults: List[Any] = []
+    packages: Dict[str, Package] = {}
+    faults: List[PackageError] = []
     for path in paths:
-        new_faults: List[Any] = []
+        new_faults: List[PackageError] = []
         found = find_packages([path], new_faults)
         if not found and not new_faults:
             report.bad('%s %s' % (quoted_path(path), 'has no package in it' if os.path.isdir(path)
-                                  else 'is no folder'))
+                                  else 'is not a directory'))
         packages.update((name, package) for name, package in found.items()
                         if name not in packages)
         faults += new_faults

@@ -17,7 +17,9 @@ from rocon_uri.cli.packages import (
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Any, Dict
+    from typing import Dict
+
+    from capabilities.spec_index import Spec
 
 __all__ = ['add_arguments', 'main']
 
@@ -43,7 +45,7 @@ def main(args: argparse.Namespace) -> int:
     return report.status
 
 
-def _show(specs: Dict[str, Any]) -> None:
+def _show(specs: Dict[str, Spec]) -> None:
     paint = painter()
     width = max(map(len, specs), default=0)
     for spec_type, heading in _HEADINGS.items():
@@ -55,15 +57,14 @@ def _show(specs: Dict[str, Any]) -> None:
                                   shortened(_about(spec))))
 
 
-def _about(spec: Any) -> str:
-    if spec.spec_type == 'provider':
-        return 'implements %s' % spec.implements
-    if spec.spec_type == 'semantic_interface':
-        return 'redefines %s' % spec.redefines
+def _about(spec: Spec) -> str:
+    for key in 'implements', 'redefines':
+        if hasattr(spec, key):
+            return '%s %s' % (key, getattr(spec, key))
     return str(spec.description)
 
 
-def _as_json(spec: Any) -> Dict[str, Any]:
+def _as_json(spec: Spec) -> Dict[str, object]:
     return {'name': spec.name, 'spec_type': spec.spec_type, 'description': spec.description,
             'file': spec.file_name, 'implements': getattr(spec, 'implements', None),
             'redefines': getattr(spec, 'redefines', None)}

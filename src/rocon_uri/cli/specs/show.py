@@ -25,8 +25,11 @@ from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Any, Dict, Iterable, List, Optional, Tuple
-    from capabilities.spec_index import SpecIndex
+    from typing import Dict, Iterable, List, Optional, Tuple
+
+    from capabilities.spec_index import Spec, SpecIndex
+    from capabilities.specs.interface import CapabilityInterface
+    from capabilities.specs.provider import CapabilityProvider
 
 __all__ = ['add_arguments', 'main']
 
@@ -56,7 +59,7 @@ def main(args: argparse.Namespace) -> int:
             'providers': shown.providers, 'start_order': shown.start_order,
             'faults': shown.faults, 'errors': report.errors})
     elif spec is not None:
-        _print(shown)
+        _print(spec, shown)
     return report.status
 
 
@@ -75,50 +78,55 @@ class Shown:
     A spec, and what is to be said of it from looking at the others.
 
     - ``resolved``: the interface that clients of a semantic interface see, or None
+    - ``provider``: the spec, if it is a provider, or None
+    - ``interface``: that one, or the interface that the spec itself is, or None
     - ``providers``: list of str, those of an interface or semantic interface
     - ``start_order``: list of str, what is to be started for a provider, itself last
     - ``faults``: list of str, what is in the way of that
     """
 
-    def __init__(self, spec: Any, index: SpecIndex) -> None:
+    def __init__(self, spec: Optional[Spec], index: SpecIndex) -> None:
         from capabilities.planning.providers import plan_for_provider    # here, since it loads YAML
         from capabilities.specs.common import InvalidSpec
-        self.spec = spec
-        self.resolved: Any = None
+        from capabilities.specs.interface import CapabilityInterface
+        from capabilities.specs.provider import CapabilityProvider
+        from capabilities.specs.semantic_interface import SemanticCapabilityInterface
+        self.resolved: Optional[CapabilityInterface] = None
         self.start_order: List[str] = []
         self.faults: List[str] = []
         self.providers = [] if spec is None else index.providers_of(spec.name)
-        spec_type = spec and spec.spec_type
-        if spec_type == 'provider':
+        if isinstance(spec, CapabilityProvider):
             plan = plan_for_provider(index, spec.name)
             self.start_order = plan.order
             self.faults = [str(fault) for fault in plan.faults]
-        elif spec_type == 'semantic_interface':
+        elif isinstance(spec, SemanticCapabilityInterface):
             try:
                 self.resolved = spec.resolve(index.interfaces[spec.redefines])
             except InvalidSpec as error:
                 self.faults = [str(error)]
+        self.provider = spec if isinstance(spec, CapabilityProvider) else None
+        self.interface = spec if isinstance(spec, CapabilityInterface) else self.resolved
 
 
-def _print(shown: Shown) -> None:
-    spec, paint = shown.spec, painter()
+def _print(spec: Spec, shown: Shown) -> None:
+    paint = painter()
     print('%s %s' % (spec.spec_type.replace('_', ' '), paint(spec.name, 'bold')))
     print('  ' + printable(spec.description))
     print('  in ' + printable(spec.file_name))
-    if spec.spec_type == 'provider':
-        _print_provider(spec)
+    if shown.provider is not None:
+        _print_provider(shown.provider)
         _print_names('to start, in this order', shown.start_order)
     else:
-        if spec.spec_type == 'semantic_interface':
-            print('redefines %s' % paint(spec.redefines, 'cyan'))
-        interface = shown.resolved if spec.spec_type == 'semantic_interface' else spec
-        if interface is not None:
-            _print_interface(interface)
+        redefines = getattr(spec, 'redefines', None)
+        if redefines is not None:
+            print('redefines %s' % paint(redefines, 'cyan'))
+        if shown.interface is not None:
+            _print_interface(shown.interface)
         _print_names('providers', shown.providers)
     _print_names('faults', map(printable, shown.faults))
 
 
-def _print_provider(spec: Any) -> None:
+def _print_provider(spec: CapabilityProvider) -> None:
     paint = painter()
     print('implements %s' % paint(spec.implements, 'cyan'))
     for key in 'launch_file', 'nodelet_manager':
@@ -133,7 +141,7 @@ def _print_provider(spec: Any) -> None:
                                        for name, new_name in new_names.items()])
 
 
-def _print_interface(interface: Any) -> None:
+def _print_interface(interface: CapabilityInterface) -> None:
     rows: Dict[Tuple[str, Optional[str]], List[Tuple[str, ...]]] = {}
     for section, name, element, grouping in interface.elements():
         rows.setdefault((section, grouping), []).append((name, element.type or ''))
