@@ -152,6 +152,18 @@ def test_without_a_server(robot):
     client.shutdown()
 
 
+def test_a_free_that_reaches_no_server_can_be_made_again(robot):
+    """A25: what was used is not forgotten"""
+    from capabilities.client import CapabilitiesClient, ServiceNotAvailableException
+    client = CapabilitiesClient('/no_such_server', strict=True)
+    client._uses['robot/Base'] = 1
+    for _ in range(2):
+        with pytest.raises(ServiceNotAvailableException):
+            client.free_capability('robot/Base', 0.1)
+    assert client._used_capabilities == {'robot/Base'}
+    client.shutdown()
+
+
 def test_nothing_of_it_needs_a_node(robot):
     code = ('from capabilities.client import *\nclient = CapabilitiesClient()\n'
             'assert client.wait_for_services(0.1) is False\n'

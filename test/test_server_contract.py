@@ -1,10 +1,11 @@
 """What clients of old rely on, and what a server has to stand: many at once, and bad timing."""
+import json
 import os
 import signal
 import threading
 
 import pytest
-
+from made_packages import make_package
 from robot import eventually
 
 
@@ -264,3 +265,37 @@ def test_remappings_are_followed_through_all_that_it_depends_on():
     # a chain of three
     assert merged_remappings([provider(a='b'), provider(c='a'), provider(d='c')])['topics'] == {
         'd': 'b'}
+
+
+FAULTY = 'Two', 'Broken', 'Missing', 'Loop', 'Pool', 'None'
+
+
+def test_apps_start_and_plan_say_why_not_in_one_wording(server, robot, tmp_path, capsys):
+    """A5: character for character"""
+    from rocon_uri.cli import main
+    make_package(tmp_path, 'apps', [('rocon_app', 'a%s.rapp' % name) for name in FAULTY], **{
+        'a%s_rapp' % name: '{compatibility: "rocon:/", launch: app.launch, required_capabilities: '
+        '[{name: robot/%s}]}' % name for name in FAULTY}, app_launch='<launch/>')
+    main(['apps', '--json', '--all', '--robot', 'rocon:/pc/bob', '--package-path',
+          '%s:%s' % (tmp_path, robot.workspace)])
+    apps = {app['name']: [reason['text'] for reason in app['reasons']]
+            for app in json.loads(capsys.readouterr().out)['apps']}
+    bond = server.bond()
+    for name in FAULTY:
+        reasons = apps['apps/a' + name]
+        assert reasons
+        assert server.call('plan_capability', 'robot/' + name, '').faults == reasons
+        for arguments in (('start_capability', 'robot/' + name, ''),
+                          ('use_capability', 'robot/' + name, '', bond.id)):
+            assert 'error processing request: ' + '; '.join(reasons) in server.error(*arguments)
+    assert server.states() == {}
+    bond.shutdown()
+
+
+def test_the_parameter_use_screen_counts_more_than_the_option():
+    """1.1"""
+    pytest.importorskip('rospy')
+    from capabilities.parameters import read_parameters
+    assert read_parameters(lambda name, default: default, True).use_screen is True
+    given = {'~use_screen': False}
+    assert read_parameters(given.get, True).use_screen is False

@@ -212,6 +212,7 @@ class CapabilitiesClient:
         :raises ServiceNotAvailableException: if the service did not come up in time
         :raises rospy.ServiceException: for any other error of the server, if this client is strict
         """
+        self._wait_for('free_capability', timeout)
         with self._lock:
             is_used = self._uses[capability_interface] > 0
             if is_used:
@@ -221,7 +222,6 @@ class CapabilitiesClient:
             self._lost.freed(capability_interface)
         if not is_used:
             _logger.error("capability '%s' is not used by this client", capability_interface)
-        self._wait_for('free_capability', timeout)
         try:
             self._call('free_capability', capability_interface, self._bond_id or '')
         except rospy.ServiceException as error:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import logging
 from typing import Callable, Dict, List, NamedTuple, Optional, Tuple
 
+from rocon_uri.sources.ros_names import is_legal_resource_name
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 __all__ = ['InvalidConfiguration', 'Parameters', 'read_parameters']
@@ -73,8 +74,10 @@ def read_parameters(get: Get, screen: bool = False) -> Parameters:
     ends, still_more_faults = _choice(get, '~on_nodelet_manager_lost', ('restart', 'stop'))
     faults += more_faults + still_more_faults
     name = get('~nodelet_manager_name', None)
-    if name is not None and not (isinstance(name, str) and name):
-        faults.append('parameter ~nodelet_manager_name is no name')
+    if name is not None and not (
+            isinstance(name, str) and is_legal_resource_name(name.lstrip('/'))):
+        faults.append('parameter ~nodelet_manager_name is %s, which is no name of a node'
+                      % quoted(str(name)))
     if faults:
         raise InvalidConfiguration(faults)
     return Parameters(
