@@ -207,6 +207,7 @@ def test_is_made_of_fields():
 
 
 @pytest.mark.parametrize('field, value', [
+    ('concert_name', ['north', 'south']), ('concert_name', ['']), ('rocon_app', ['a', 'b']),
     ('concert_name', '3north'), ('concert_name', '*'), ('concert_name', 'north/pr2'),
     ('hardware_platform', 'bender'), ('hardware_platform', 'pr2|'), ('hardware_platform', ['']),
     ('hardware_platform', ['pr2', 'kobuki|robot']), ('hardware_platform', 'pr2/bob'),
@@ -233,6 +234,8 @@ def test_replace_changes_only_what_is_named():
     assert str(uri) == 'rocon://north/pr2/bob/ros/linux#a/b'
     with pytest.raises(TypeError):
         uri.replace(colour='red')
+    with pytest.raises(TypeError):
+        uri.replace(name=None)
 
 
 def test_replace_keeps_the_vocabulary():

@@ -14,27 +14,27 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import List
 
-    from rocon_uri.compatibility import Relation, explain, is_compatible, relation
+    from rocon_uri.compatibility import Relation, explain, relation
     from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
     from rocon_uri.field import Field
     from rocon_uri.platform import generate_platform_rocon_uri
     from rocon_uri.resource_index import ResourceIndex
-    from rocon_uri.uri import RoconURI, default_uri_string, parse
+    from rocon_uri.uri import RoconURI, default_uri_string, is_compatible, parse
     from rocon_uri.vocabulary import Vocabulary
 
 __all__ = ['Field', 'PatternTooComplex', 'Relation', 'ResourceIndex', 'RoconURI',
            'RoconURIValueError', 'Vocabulary', 'default_uri_string', 'explain',
            'generate_platform_rocon_uri', 'is_compatible', 'parse', 'relation']
 
-# The modules are imported when a name of theirs is asked for. A program that only may need this
-# package starts at no cost, and one that parses does not pay for the rest.
+# Each module is imported when a name in it is first used: a program that may not need this
+# package starts at no cost, and one that only parses does not pay for the rest.
 _NAMES = {
-    'compatibility': ('Relation', 'explain', 'is_compatible', 'relation'),
+    'compatibility': ('Relation', 'explain', 'relation'),
     'exceptions': ('PatternTooComplex', 'RoconURIValueError'),
     'field': ('Field',),
     'platform': ('generate_platform_rocon_uri',),
     'resource_index': ('ResourceIndex',),
-    'uri': ('RoconURI', 'default_uri_string', 'parse'),
+    'uri': ('RoconURI', 'default_uri_string', 'is_compatible', 'parse'),
     'vocabulary': ('Vocabulary',),
 }
 

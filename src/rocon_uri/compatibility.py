@@ -1,8 +1,8 @@
 """
-Two rocon URIs side by side: do they match a common resource, which is the larger, and why?
+Two rocon URIs compared: how the sets of resources that they match are related, and why.
 
-A URI matches a set of resources: the product of the sets of its fields and its concert. The app
-says what runs, not where it can run, and takes no part.
+A URI matches a set of resources, the product of the sets that its fields and its concert match.
+The app says what runs, not where it can run, and is not compared.
 """
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ __all__ = ['Explanation', 'FieldComparison', 'Relation', 'explain', 'is_compatib
 class Relation(Enum):
     """How the sets of resources that two URIs match are related."""
 
-    #: both match the same resources
+    #: the two sets are the same
     EQUAL = 'equal'
-    #: the second matches all that the first matches, and more
+    #: the first is a proper subset of the second
     SUBSET = 'subset'
-    #: the first matches all that the second matches, and more
+    #: the first is a proper superset of the second
     SUPERSET = 'superset'
-    #: the sets overlap, and each has resources of its own
+    #: the two sets overlap, and neither is a subset of the other
     OVERLAP = 'overlap'
     #: no resource is in both sets
     DISJOINT = 'disjoint'
@@ -59,20 +59,35 @@ def relation(a: Resource, b: Resource) -> Relation:
     return Relation.SUPERSET if is_superset else Relation.OVERLAP
 
 
-#: What an `Explanation` says of one field: its name, the text of each side (str), whether they
-#: meet (bool; None where another field decides and the patterns are too complex), and what they
-#: share (str: the text of a field, for two patterns a name that both admit, '' for nothing).
-FieldComparison = namedtuple('FieldComparison', 'field a b is_compatible shared')
+# Not a typing.NamedTuple: importing typing takes longer than importing the rest of the package.
+class FieldComparison(namedtuple('FieldComparison', 'field a b is_compatible shared')):
+    """
+    What an `Explanation` says about one field.
+
+    ``field`` is its name (str), ``a`` and ``b`` are its texts in the first and the second URI
+    (str). ``is_compatible`` (bool) says whether the two sets overlap; it is None where another
+    field decides and the patterns are too complex. ``shared`` (str) is what is in both: the text
+    of a field, for two patterns a name, '' for nothing.
+    """
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+        field: str
+        a: str
+        b: str
+        is_compatible: Optional[bool]
+        shared: str
 
 
 class Explanation:
     """
-    Whether two URIs are compatible, field by field; true if they are.
+    Whether two URIs are compatible, field by field; it is true if they are.
 
     :param RoconURI a: the first
     :param RoconURI b: the second
 
-    ``a`` and ``b`` are attributes too.
+    ``a`` and ``b`` are attributes.
     """
 
     __slots__ = ('a', 'b', 'fields')
@@ -86,14 +101,14 @@ class Explanation:
     def _comparisons(self) -> List[FieldComparison]:
         compared: Dict[str, FieldComparison] = {}
         for (field, x), (_, y) in zip(self.a.sets, self.b.sets):      # the name comes last
-            meets: Optional[bool]
+            overlap: Optional[bool]
             try:
-                meets, shared = x.intersects(y), x.shared(y)
+                overlap, shared = x.intersects(y), x.shared(y)
             except PatternTooComplex:
                 if all(comparison.is_compatible for comparison in compared.values()):
                     raise
-                meets, shared = None, ''
-            compared[field] = FieldComparison(field, x.string, y.string, meets, shared)
+                overlap, shared = None, ''
+            compared[field] = FieldComparison(field, x.string, y.string, overlap, shared)
         shown = ['hardware_platform', 'name', 'application_framework', 'operating_system']
         if self.a.concert_name or self.b.concert_name:
             shown.insert(0, 'concert_name')
@@ -109,10 +124,10 @@ class Explanation:
 
     def __str__(self) -> str:
         rows = [('', 'field', 'first', 'second', 'in common')]
-        for field, a, b, meets, shared in self.fields:
+        for field, a, b, overlap, shared in self.fields:
             example = 'e.g. ' if field == 'name' and shared not in (a, b, '') else ''
-            in_common = 'too complex to say' if meets is None else example + shared or 'nothing'
-            rows.append(('x' if meets is False else '', field, a, b, in_common))
+            in_common = 'too complex to say' if overlap is None else example + shared or 'nothing'
+            rows.append(('x' if overlap is False else '', field, a, b, in_common))
         widths = [max(map(len, column)) for column in zip(*rows)]
         lines = ['  '.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()
                  for row in rows]
@@ -121,7 +136,7 @@ class Explanation:
 
 def explain(a: Resource, b: Resource) -> Explanation:
     """
-    Why two URIs are compatible, or are not.
+    Why two URIs are compatible, or why they are not.
 
     :param a: RoconURI, or str that is parsed
     :param b: RoconURI, or str that is parsed

@@ -1,8 +1,8 @@
 """
-What is raised for a rocon URI that is not one, and for a question about two that is too hard.
+Errors: a text that is not a rocon URI, and two patterns that are too complex to compare.
 
-The text of an error is one line that a log can hold whatever the input was; the parts that it is
-made of are attributes beside it.
+The text of an error is one line that a log can hold, whatever the input was. What the text is made
+of is in the attributes.
 """
 from __future__ import annotations
 
@@ -120,10 +120,10 @@ class UnregisteredValue(RoconURIValueError):
 
 class PatternTooComplex(RoconURIValueError):
     """
-    Two name patterns whose relation would take more work to decide than is allowed.
+    Two name patterns that take more work to compare than is allowed.
 
-    Either of them can still be matched with names. What remained undecided where many were
-    asked about is in ``undecided``, a list; it is empty where only two were.
+    Each of them can still be matched with names. Where one request was compared with many
+    resources, ``undecided`` is the list of those with which it could not be; else it is empty.
     """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:

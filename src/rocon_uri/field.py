@@ -17,16 +17,19 @@ if TYPE_CHECKING:
 
 __all__ = ['Field', 'NameField', 'UnregisteredValue', 'ValuesField', 'read_values']
 
-_ANY_MASK = -1      # all bits, more than any vocabulary has: `*` is larger than all that is known
-_MEMO_SIZE = 1024           # field texts remembered for each field of a vocabulary
-_MEMO_TEXT_LENGTH = 256     # characters; longer ones are read anew each time
+# All bits, which are more than any vocabulary has: `*` is larger than everything registered.
+_ANY_MASK = -1
+# Texts of each field that a vocabulary remembers, and characters of one. A longer text is read
+# anew each time; when the memo is full it starts again with nothing.
+_MEMO_SIZE = 1024
+_MEMO_TEXT_LENGTH = 256
 
 
 class Field:
     """
     One field of a `rocon_uri.RoconURI`, a set of values; specification, section "Definition".
 
-    Iteration gives the alternatives as they were written, ``'*'`` for any.
+    Iteration yields the alternatives as written, ``'*'`` for any.
 
     >>> import rocon_uri
     >>> uri = rocon_uri.parse('rocon:/pr2|kobuki/bob*/noetic/ubuntu')
@@ -63,7 +66,7 @@ class Field:
 
     def expand(self) -> List[str]:
         """
-        The registered values that the field stands for, none of them a group.
+        The registered values that the field matches, each group replaced by its members.
 
         :returns: list of str; for the name, which has no registered values, the same as ``list``
 
@@ -106,7 +109,7 @@ class ValuesField(Field):
     field_name: str
     alternatives: Tuple[str, ...]
     mask: int
-    others: FrozenSet[str]      # the values that only an open vocabulary admits have no bits
+    others: FrozenSet[str]      # values that only an open vocabulary accepts: they have no bits
     vocabulary: Vocabulary
     _key: FrozenSet[str]
 
@@ -154,16 +157,16 @@ class ValuesField(Field):
                                   for leaf in (known.leaves(value) if value in known else [value])))
 
     def intersects(self, other: 'ValuesField') -> bool:
-        """Do both have a value in common? Both are of one vocabulary."""
+        """Do the two sets overlap? Both are read with one vocabulary."""
         return bool(self.mask & other.mask or self.others & other.others
                     or self.is_any and other.others or other.is_any and self.others)
 
     def includes(self, other: 'ValuesField') -> bool:
-        """Are all values of the other here too? Both are of one vocabulary."""
+        """Is the other a subset of this one? Both are read with one vocabulary."""
         return self.is_any or not other.mask & ~self.mask and other.others <= self.others
 
     def shared(self, other: 'ValuesField') -> str:
-        """What both have in common, as the text of a field; '' for nothing."""
+        """The intersection, as the text of a field; '' for nothing."""
         if self.is_any:
             return other.string
         if other.is_any:
@@ -189,7 +192,7 @@ class NameField(Field):
     The name: a set of ROS names, given by a literal name or a pattern.
 
     :param str string: the text
-    :param NamePattern pattern: what it says
+    :param NamePattern pattern: the set that the text denotes
     """
 
     __slots__ = ('pattern',)
@@ -204,15 +207,15 @@ class NameField(Field):
         return isinstance(value, str) and self.pattern.matches(value)
 
     def intersects(self, other: 'NameField') -> bool:
-        """Is there a name that both admit?"""
+        """Do the two sets of names overlap?"""
         return self.pattern.intersects(other.pattern)
 
     def includes(self, other: 'NameField') -> bool:
-        """Is every name that the other admits admitted here?"""
+        """Is the other's set of names a subset of this one?"""
         return self.pattern.includes(other.pattern)
 
     def shared(self, other: 'NameField') -> str:
-        """A name that both admit; '' if there is none."""
+        """A name in both sets, '' if there is none; where one is ``*``, the text of the other."""
         if self.is_any or other.is_any:
             return self.string if other.is_any else other.string
         return self.pattern.example(other.pattern) or ''

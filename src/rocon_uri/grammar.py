@@ -1,8 +1,8 @@
 """
 The grammar of a rocon URI: as EBNF for people, and as the one expression that splits a text.
 
-The expression only finds the parts; whether each of them is legal is for the modules that know
-what it means (`rocon_uri.field`, `rocon_uri.uri`).
+The expression only finds the parts. Whether each part is legal is decided where it is read, in
+`rocon_uri.reading`.
 """
 from __future__ import annotations
 
@@ -57,9 +57,9 @@ framework   = "*" | ? an application_framework, likewise ? ;
 system      = "*" | ? an operating_system, likewise ? ;
 '''.lstrip()
 
-#: Splits a text into concert name, slash, the four fields, a fifth and more, and the app; all of
-#: them raw, and None where they are left out. The slash is '' where the one that should stand
-#: before the fields is missing. None for a text that does not begin with the scheme.
+#: Matches a text that begins with the scheme. The groups are the concert name, the slash before
+#: the fields ('' where it is missing), the four fields, a fifth field and more, and the app; all
+#: of them raw, and None where they are left out.
 split = re.compile(
     r'(?i:rocon):(?://([^/#]*))?(/?)([^/#]*)(?:/([^/#]*)(?:/([^/#]*)(?:/([^/#]*)(/[^#]*)?)?)?)?'
     r'(?:#(.*))?', re.DOTALL).fullmatch
@@ -105,7 +105,7 @@ def decoded(raw: str) -> str:
     for match in _escape.finditer(raw):
         if match.group(1) is None:
             raise ValueError("'%' is not followed by two hexadecimal digits")
-    # a lone surrogate is as little UTF-8 as a stray byte is
+    # a lone surrogate cannot be encoded, as a stray byte cannot be decoded
     try:
         octets = b''.join(bytes([int(piece, 16)]) if index % 2 else piece.encode('utf-8')
                           for index, piece in enumerate(_escape.split(raw)))
@@ -128,7 +128,7 @@ def raw_span(raw: str, start: int, end: int) -> Tuple[int, int]:
     """
     if '%' not in raw:
         return start, end
-    # where each decoded character starts: an escape whose octet continues one does not start any
+    # where each decoded character starts: an escape of a continuation byte does not start one
     starts = [match.start() for match in re.finditer('%[0-9A-Fa-f]{2}|.', raw, re.DOTALL)
               if not re.match('%[89ABab]', match.group())]
     starts.append(len(raw))
@@ -153,7 +153,7 @@ def ebnf(values: Mapping[str, Iterable[str]]) -> str:
 
 def _choice(symbol: str, values: Iterable[str]) -> str:
     """One rule of EBNF: a choice of quoted values, wrapped at 100 characters."""
-    import textwrap     # which who parses need not have
+    import textwrap     # slow to import, and parsing does not need it
     # no-break spaces, so that each line begins with a '|'
     choice = ' |\xa0'.join('"%s"' % value for value in ('*', *values))
     rule = textwrap.fill('%-11s = %s\xa0;' % (symbol, choice), 100, subsequent_indent=' ' * 12,

@@ -11,12 +11,10 @@ from __future__ import annotations
 from collections.abc import Mapping, MutableMapping
 from itertools import chain
 
-from rocon_uri.compatibility import is_compatible
-from rocon_uri.exceptions import PatternTooComplex
+from rocon_uri.exceptions import PatternTooComplex, UnregisteredValue
 from rocon_uri.sources.wording import quoted
-from rocon_uri.exceptions import UnregisteredValue
 from rocon_uri.name_index import NameIndex, NameRequest
-from rocon_uri.uri import RoconURI, aligned, parse, with_any_name
+from rocon_uri.uri import RoconURI, aligned, is_compatible, parse, with_any_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

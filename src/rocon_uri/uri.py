@@ -19,22 +19,28 @@ if TYPE_CHECKING:
     from rocon_uri.name_pattern import NamePattern
     from rocon_uri.reading import Reading
     FieldText = Union[str, Field, Iterable[str]]
+    Resource = Union[str, 'RoconURI']
 
 __all__ = ['RoconURI', 'aligned', 'comparable', 'default_uri_string', 'is_compatible', 'parse',
            'with_any_name']
 
-#: The URI of anything at all.
+#: The URI that matches every resource.
 default_uri_string = 'rocon://'
 
-_MEMO_SIZE = 4096           # URIs remembered for each vocabulary
-_MEMO_TEXT_LENGTH = 1024    # characters; longer ones are read anew each time
+# Texts that a vocabulary remembers, and characters of one. A longer text is read anew each time;
+# when the memo is full it starts again with nothing.
+_MEMO_SIZE = 4096
+_MEMO_TEXT_LENGTH = 1024
+
+_UNSET: Any = object()      # the default of an argument that is left out
+
 
 class _Reading:
     """
     A URI while its attributes are set; then it becomes a RoconURI, which refuses to change.
 
-    Setting them past a class that refuses takes 0.55 us in place of 0.21, where all of reading the
-    commonest text takes 0.76.
+    Setting the attributes of a class that refuses takes 0.55 us instead of 0.21, where all of
+    reading the commonest text takes 0.76.
     """
 
     __slots__ = {
@@ -42,12 +48,12 @@ class _Reading:
         'hardware_platform': 'The hardware, as ``turtlebot2``; a `Field`.',
         'name_text': 'The text of the name or of the pattern for names, a str.',
         'name_pattern': 'The pattern for names, a `NamePattern`; None for a literal name.',
-        'application_framework': 'The framework, as ``noetic``; a `Field`.',
-        'operating_system': 'The system, as ``focal``; a `Field`.',
+        'application_framework': 'The application framework, as ``noetic``; a `Field`.',
+        'operating_system': 'The operating system, as ``focal``; a `Field`.',
         'rocon_app': 'The app that runs there, a str; empty for none.',
-        'vocabulary': 'What the URI was read with, a `Vocabulary`.',
+        'vocabulary': 'The `Vocabulary` that the URI was read with.',
         'read_with_one_slash':
-            'Was the part after ``//`` taken for the platform, since it is a registered one?'}
+            'Was ``//`` read as ``/``, since a registered platform follows it?'}
 
     concert_name: str
     hardware_platform: ValuesField
@@ -62,11 +68,11 @@ class _Reading:
 
 class RoconURI(_Reading):
     """
-    A set of resources: the product of the sets of its fields.
+    A set of resources: the product of the sets that its fields match.
 
-    It does not change, and can be a key. Two are equal if they have the same alternatives in each
-    field, in whatever order, the same name or pattern, concert and app; whether they match the
-    same resources is what `rocon_uri.relation` says.
+    It is immutable and hashable. Two are equal if they have the same alternatives in each field,
+    in any order, and the same name or pattern, concert and app. Whether they match the same
+    resources is what `rocon_uri.relation` says.
 
     :param text: str, as `parse` takes
     :param vocabulary: as `parse` takes
@@ -80,7 +86,7 @@ class RoconURI(_Reading):
 
     __slots__ = ()
 
-    def __new__(cls, text: Union[str, 'RoconURI'] = 'rocon:/',
+    def __new__(cls, text: Resource = 'rocon:/',
                 vocabulary: Optional[Vocabulary] = None, strict: bool = False) -> 'RoconURI':
         return parse(text, vocabulary, strict)
 
@@ -106,22 +112,21 @@ class RoconURI(_Reading):
         >>> str(RoconURI.from_fields(hardware_platform=['pr2', 'kobuki'], name='bob'))
         'rocon:/pr2|kobuki/bob/*/*'
         """
-        return _new(read_texts(
-            (concert_name, _text('hardware_platform', hardware_platform), _text('name', name),
-             _text('application_framework', application_framework),
-             _text('operating_system', operating_system), rocon_app),
-            current() if vocabulary is None else vocabulary))
+        texts = (_text('concert_name', concert_name),
+                 _text('hardware_platform', hardware_platform), _text('name', name),
+                 _text('application_framework', application_framework),
+                 _text('operating_system', operating_system), _text('rocon_app', rocon_app))
+        return _new(read_texts(texts, current() if vocabulary is None else vocabulary))
 
-    def replace(self, concert_name: Optional[str] = None,
-                hardware_platform: Optional[FieldText] = None, name: Optional[FieldText] = None,
-                application_framework: Optional[FieldText] = None,
-                operating_system: Optional[FieldText] = None, rocon_app: Optional[str] = None,
-                vocabulary: Optional[Vocabulary] = None) -> 'RoconURI':
+    def replace(self, *, concert_name: str = _UNSET, hardware_platform: FieldText = _UNSET,
+                name: FieldText = _UNSET, application_framework: FieldText = _UNSET,
+                operating_system: FieldText = _UNSET, rocon_app: str = _UNSET,
+                vocabulary: Optional[Vocabulary] = _UNSET) -> 'RoconURI':
         """
         This URI with other values in some fields.
 
-        :param concert_name: as `from_fields` takes, and so are the others; None leaves a field as
-            it is
+        The parameters are those of `from_fields`; what is left out stays as it is.
+
         :returns: RoconURI
         :raises RoconURIValueError: for a field that is not legal
 
@@ -129,13 +134,14 @@ class RoconURI(_Reading):
         'rocon:/pr2/alice/*/focal'
         """
         return self.from_fields(
-            self.concert_name if concert_name is None else concert_name,
-            self.hardware_platform if hardware_platform is None else hardware_platform,
-            self.name_text if name is None else name,
-            self.application_framework if application_framework is None else application_framework,
-            self.operating_system if operating_system is None else operating_system,
-            self.rocon_app if rocon_app is None else rocon_app,
-            self.vocabulary if vocabulary is None else vocabulary)
+            self.concert_name if concert_name is _UNSET else concert_name,
+            self.hardware_platform if hardware_platform is _UNSET else hardware_platform,
+            self.name_text if name is _UNSET else name,
+            self.application_framework if application_framework is _UNSET
+            else application_framework,
+            self.operating_system if operating_system is _UNSET else operating_system,
+            self.rocon_app if rocon_app is _UNSET else rocon_app,
+            self.vocabulary if vocabulary is _UNSET else vocabulary)
 
     @property
     def rapp(self) -> str:
@@ -150,9 +156,9 @@ class RoconURI(_Reading):
     @property
     def sets(self) -> Tuple[Tuple[str, Any], ...]:
         """
-        What decides about compatibility: (name, `Field`) of the fields and of the concert.
+        The five sets that are compared, as (name, `Field`); the concert's is one of names.
 
-        The cheap ones come first, the names last.
+        The sets that are cheap to compare come first, the name last.
         """
         concert = self.concert_name or '*'
         return (('hardware_platform', self.hardware_platform),
@@ -161,7 +167,7 @@ class RoconURI(_Reading):
                 ('concert_name', NameField(concert, read_pattern(concert))),
                 ('name', self.name))
 
-    def isdisjoint(self, other: Union[str, 'RoconURI']) -> bool:
+    def isdisjoint(self, other: Resource) -> bool:
         """
         Is there no resource that both match?
 
@@ -175,7 +181,7 @@ class RoconURI(_Reading):
         """
         return not is_compatible(*aligned(self, other))
 
-    def issubset(self, other: Union[str, 'RoconURI']) -> bool:
+    def issubset(self, other: Resource) -> bool:
         """
         Does the other match every resource that this one matches?
 
@@ -190,7 +196,7 @@ class RoconURI(_Reading):
         ours, theirs = aligned(self, other, complete=True)
         return all(b.includes(a) for (_, a), (_, b) in zip(ours.sets, theirs.sets))
 
-    def issuperset(self, other: Union[str, 'RoconURI']) -> bool:
+    def issuperset(self, other: Resource) -> bool:
         """
         Does this one match every resource that the other matches?
 
@@ -206,11 +212,11 @@ class RoconURI(_Reading):
 
     @property
     def short(self) -> str:
-        """The text without the ``*`` that it can do without: ``'rocon:/pr2/bob'``."""
-        fields = [self.hardware_platform.string, self.name_text,
-                  self.application_framework.string, self.operating_system.string]
+        """The text without the ``*`` fields at its end: ``'rocon:/pr2/bob'``."""
         if needs_all_fields(self.concert_name, self.hardware_platform, self.vocabulary):
             return str(self)
+        fields = [self.hardware_platform.string, self.name_text,
+                  self.application_framework.string, self.operating_system.string]
         while fields and fields[-1] == '*':
             fields.pop()
         text = 'rocon://' + self.concert_name if self.concert_name else 'rocon:'
@@ -229,8 +235,8 @@ class RoconURI(_Reading):
         >>> RoconURI('rocon:/pr2|kobuki/bob_[0-9]+').to_rfc3986()
         'rocon:/pr2%7Ckobuki/bob_%5B0-9%5D+/*/*'
         """
-        from urllib.parse import quote      # here, since nothing else needs it
-        return 'rocon:' + quote(str(self)[len('rocon:'):], safe='!$()*+,;=:@/#')
+        from urllib.parse import quote      # slow to import, and nothing else needs it
+        return quote(str(self), safe='!$()*+,;=:@/#')
 
     def __str__(self) -> str:
         return 'rocon:%s/%s/%s/%s/%s%s' % (
@@ -269,20 +275,20 @@ class RoconURI(_Reading):
         raise AttributeError('a rocon URI cannot be changed')
 
 
-
-def parse(text: Union[str, RoconURI] = 'rocon:/', vocabulary: Optional[Vocabulary] = None,
+def parse(text: Resource = 'rocon:/', vocabulary: Optional[Vocabulary] = None,
           strict: bool = False) -> RoconURI:
     """
     Read a rocon URI; specification, sections "Definition" and "Special Operations".
 
-    :param text: str; a RoconURI comes back as it is, or as the vocabulary given reads it
-    :param vocabulary: `Vocabulary` to read with; where left out, what is bundled and, once a
-        value is met that is not, what packages on this machine and ROCON_URI_RULES add
+    :param text: str; a RoconURI is returned as it is, or read again with the given vocabulary
+    :param vocabulary: `Vocabulary` to read with. Where it is left out, that is the bundled one
+        and, after the first value that it does not have, also what the packages on this machine
+        and ROCON_URI_RULES add.
     :param bool strict: take the text by its letter: what follows ``//`` is a concert even where
-        it is a registered platform, and fields start with a slash
+        it is a registered platform, and the fields start with a slash
     :returns: RoconURI
-    :raises RoconURIValueError: if it is not one; says which field, where in the text and why
-    :raises TypeError: if it is no text
+    :raises RoconURIValueError: for a text that is not legal; says which field, where and why
+    :raises TypeError: for what is neither a str nor a RoconURI
 
     >>> parse('rocon:/pr2/bob').hardware_platform.string
     'pr2'
@@ -294,11 +300,12 @@ def parse(text: Union[str, RoconURI] = 'rocon:/', vocabulary: Optional[Vocabular
         if vocabulary is None or text.vocabulary is vocabulary:
             return text
         text = str(text)
-    uri: Optional[RoconURI] = None if strict else known.uris_read.get(text)
+    if strict:
+        return _new(read(text, known, strict))
+    uri: Optional[RoconURI] = known.uris_read.get(text)
     if uri is None:
-        reading = None if strict else read_common(text, known)
-        uri = _new(reading or read(text, known, strict))
-        if not strict and len(text) <= _MEMO_TEXT_LENGTH:
+        uri = _new(read_common(text, known) or read(text, known, strict))
+        if len(text) <= _MEMO_TEXT_LENGTH:
             memo = uri.vocabulary.uris_read
             if len(memo) >= _MEMO_SIZE:
                 memo.clear()
@@ -306,14 +313,14 @@ def parse(text: Union[str, RoconURI] = 'rocon:/', vocabulary: Optional[Vocabular
     return uri
 
 
-def aligned(a: Union[str, RoconURI], b: Union[str, RoconURI],
+def aligned(a: Resource, b: Resource,
             complete: bool = False) -> Tuple[RoconURI, RoconURI]:
     """
     Two URIs as one vocabulary reads them, so that their fields can be compared.
 
     :param a: RoconURI, or str that is parsed
     :param b: RoconURI, or str that is parsed
-    :param bool complete: does the extent of groups matter?
+    :param bool complete: read both with all that packages add to the groups
     :returns: (RoconURI, RoconURI)
     :raises RoconURIValueError: for a text that is not legal, or one with a value that the other's
         vocabulary, by which both are read, does not know
@@ -332,10 +339,10 @@ def aligned(a: Union[str, RoconURI], b: Union[str, RoconURI],
 
 def with_any_name(uri: RoconURI) -> RoconURI:
     """
-    All that differs from a URI in nothing but name and app.
+    The same URI with any name, and without an app.
 
     :param RoconURI uri: any
-    :returns: RoconURI; the same as from ``replace`` in a tenth of the time
+    :returns: RoconURI; the same as from ``replace``, in a tenth of the time
 
     >>> str(with_any_name(parse('rocon://north/pr2/bob#apps/teleop')))
     'rocon://north/pr2/*/*/*'
@@ -344,7 +351,7 @@ def with_any_name(uri: RoconURI) -> RoconURI:
                  uri.operating_system, '', uri.vocabulary, False))
 
 
-def is_compatible(a: Union[str, RoconURI], b: Union[str, RoconURI]) -> bool:
+def is_compatible(a: Resource, b: Resource) -> bool:
     """
     Do two URIs match a common resource; can this app run on this robot?
 
@@ -364,7 +371,7 @@ def is_compatible(a: Union[str, RoconURI], b: Union[str, RoconURI]) -> bool:
     if not (a.hardware_platform.mask & b.hardware_platform.mask
             and a.application_framework.mask & b.application_framework.mask
             and a.operating_system.mask & b.operating_system.mask):
-        # values that only an open vocabulary admits have no bits
+        # values that only an open vocabulary accepts have no bits
         return a.vocabulary.is_open and all(
             x.intersects(y) for (_, x), (_, y) in zip(a.sets, b.sets))
     if a.concert_name and b.concert_name and a.concert_name != b.concert_name:
@@ -378,21 +385,18 @@ def is_compatible(a: Union[str, RoconURI], b: Union[str, RoconURI]) -> bool:
     return ours.matches(b.name_text) if theirs is None else ours.intersects(theirs)
 
 
-def comparable(a: Union[str, RoconURI], b: Union[str, RoconURI]) -> Tuple[RoconURI, RoconURI]:
+def comparable(a: Resource, b: Resource) -> Tuple[RoconURI, RoconURI]:
     """
     Two URIs as `is_compatible` compares them.
 
     :param a: RoconURI, or str that is parsed
     :param b: RoconURI, or str that is parsed
-    :returns: (RoconURI, RoconURI) of one vocabulary: an open one if one is not registered and the
-        other is any
+    :returns: (RoconURI, RoconURI) of one vocabulary: an open one if one URI needs it and the four
+        fields of the other are all ``*``
     :raises RoconURIValueError: for a text that is not legal
     """
     try:
-        first, second = parse(a), parse(b)
-        if first.vocabulary is second.vocabulary:
-            return first, second
-        return aligned(first, second)
+        return aligned(a, b)
     except UnregisteredValue:
         any_value = Vocabulary.open()
         first, second = parse(a, any_value), parse(b, any_value)
@@ -416,7 +420,7 @@ def _new(reading: Reading) -> RoconURI:
 
 
 def _text(field: str, value: FieldText) -> str:
-    """The text of a field that is given as text, as alternatives or as a Field."""
+    """The text of a field that is given as a str, as a Field or as alternatives."""
     if isinstance(value, (str, Field)):
         return str(value)
     alternatives = list(value)
