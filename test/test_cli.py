@@ -66,9 +66,9 @@ def bad_file(tmp_path):
     (0, ['match', 'rocon:/kobuki', '--in', FLEET]),
     (1, ['match', 'rocon:/kobuki/nobody', '--in', FLEET]),
     (2, ['match', 'rocon:/kobuki', 'zork', '--in', FLEET]),
-    (2, ['match', 'rocon:/kobuki', '--in', '/nonexistent']),
+    (2, ['match', 'rocon:/kobuki', '--in', '/no/such/file']),
     (2, ['match', 'rocon:/kobuki', '--in', '/']),
-    (2, ['match', 'rocon:/kobuki', '--requests-in', '/nonexistent', '--in', FLEET]),
+    (2, ['match', 'rocon:/kobuki', '--requests-in', '/no/such/file', '--in', FLEET]),
     (2, ['match', 'rocon:/kobuki']),
     (2, ['match', '--in', FLEET]),
     (2, ['match', '--requests-in', '-', '--in', '-']),
@@ -151,7 +151,7 @@ def test_bytes_that_are_no_text_in_a_file_or_its_name(encoding, tmp_path):
         assert b':2: ' in done.stderr and b'rocon:/pc' in done.stdout
 
 
-@pytest.mark.parametrize('path', ['/', '/nonexistent', __file__ + '/below'])
+@pytest.mark.parametrize('path', ['/', '/no/such/file', __file__ + '/below'])
 def test_a_file_that_cannot_be_read_is_named(path):
     for place in (['--in', path], ['--requests-in', path, '--in', FLEET]):
         done = run('match', 'rocon:/kobuki', *place)

@@ -279,10 +279,10 @@ def test_match_as_json_with_nothing_to_say(ask_json, file_of):
 
 
 def test_a_file_that_cannot_be_read_as_json(ask_json):
-    error, = ask_json('match', 'rocon:/pr2', '--in', '/nonexistent')['errors']
+    error, = ask_json('match', 'rocon:/pr2', '--in', '/no/such/file')['errors']
     assert list(error) == ERROR_KEYS and error['suggestions'] == []
-    assert error['message'] == "cannot read '/nonexistent': No such file or directory"
-    assert error['file'] == '/nonexistent' and error['line'] is None and error['uri'] is None
+    assert error['message'] == "cannot read '/no/such/file': No such file or directory"
+    assert error['file'] == '/no/such/file' and error['line'] is None and error['uri'] is None
 
 
 def test_pairs_that_are_too_complex_come_after_all_else(ask, ask_json, complaint, file_of):
