@@ -326,11 +326,11 @@ def aligned(a: Resource, b: Resource,
         vocabulary, by which both are read, does not know
     """
     first, second = parse(a), parse(b)
+    if first.vocabulary is second.vocabulary and not complete:
+        return first, second
     vocabularies = [first.vocabulary, second.vocabulary]
     if complete:
         vocabularies = [completed(vocabulary) for vocabulary in vocabularies]
-    elif vocabularies[0] is vocabularies[1]:
-        return first, second
     chosen = max(vocabularies, key=precedence)
     if any(vocabulary.is_open for vocabulary in vocabularies):
         chosen = chosen.opened()
