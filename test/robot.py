@@ -59,6 +59,7 @@ CAPABILITIES = [
     ('Crash', '', node('crash', 'exit 5')),
     ('OnCrash', 'robot/Crash', sleeper('on_crash')),
     ('Slow', '', '<node pkg="robot" type="slow" name="slow"/>'),
+    ('OnSlow', 'robot/Slow', sleeper('on_slow')),
     ('Stubborn', '', node('stubborn', 'ignore sleep 10000')),
     ('Forks', '', node('forks', 'fork sleep 10000')),
     ('Loop', 'robot/Pool', sleeper('loop')),

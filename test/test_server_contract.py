@@ -47,20 +47,26 @@ def test_what_runs_is_listed_with_its_dependents_and_who_started_it(server):
         ('base', 'nav', 'patrol'), running)] == [True] * 3
 
 
-def test_a_start_of_what_waits_answers_1(server):
+def test_a_start_of_what_waits_answers_1_and_of_what_stops_3(server):
     """1.5 start_capability, A19"""
     server.start_capability('Slow')
-    server.node_pid('slow')
-    bond = server.bond()
+    server.stubborn_node_pid('slow')
     stop = threading.Thread(target=server.stop_capability, args=('Slow',))
     stop.start()
     server.wait_for('Slow', 'stopping')
     assert server.start_capability('Slow') == 3
-    server.use('Slow', bond.id)
+    assert server.start_capability('OnSlow') == 0
+    assert server.start_capability('OnSlow') == 1
     assert server.start_capability('Slow') == 3
+    assert [(status.capability, status.state) for status in server.statuses()
+            if status.state != 'failed'] == [
+        ('robot/Slow', 'stopping'), ('robot/Slow', 'waiting'), ('robot/OnSlow', 'waiting')]
     stop.join()
-    server.wait_for('Slow', 'running')
-    bond.shutdown()
+    server.wait_for('OnSlow', 'running')
+    assert server.start_capability('OnSlow') == 2
+    assert server.types() == [
+        ('launched', 'Slow'), ('stopped', 'Slow'), ('terminated', 'Slow'), ('launched', 'Slow'),
+        ('launched', 'OnSlow')]
 
 
 def test_a_bond_may_use_a_capability_several_times(server):
@@ -104,6 +110,9 @@ def test_the_nodelet_manager_has_events_of_its_own(robot):
         assert variables['ROS_MASTER_URI'] == robot.master.uri
         assert server.end() == 0
         eventually(lambda: ('terminated', '!!nodelet_manager') in server.types())
+        [ready] = {event.header.stamp.to_sec() for event in server.events
+                   if event.type == '"server_ready"'}
+        assert ready == 0
     of_manager = [event for event in server.events if event.capability == '!!nodelet_manager']
     assert {event.type for event in of_manager} >= {'"stopped"', '"terminated"'}
     assert {event.provider for event in of_manager} == {server.name[1:] + '_nodelet_manager'}
