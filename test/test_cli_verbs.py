@@ -112,7 +112,7 @@ def test_a_slash_read_for_two_is_mentioned(verb, complaint, ask_json):
     text = 'rocon://turtlebot2/bob'
     assert complaint(*verb, text) == (
         "rocon_uri: note: 'rocon://turtlebot2/bob' is read as 'rocon:/turtlebot2/bob', since "
-        'turtlebot2 is a hardware_platform and no concert\n')
+        'turtlebot2 is a hardware_platform, not a concert\n')
     assert ask_json(*verb, text)['uris'][-1]['read_with_one_slash'] is True
     assert complaint(*verb, 'rocon:/turtlebot2/bob') == ''
 

@@ -124,7 +124,7 @@ class TestPackageIndex:
         assert list(packages) == ['a_package', 'c_package']
         assert packages['a_package'].filename == str(first / 'package.xml')
         assert [str(error) for error in errors] == [
-            "%s: package 'a_package' is there already, in '%s'"
+            "%s: duplicate package 'a_package', the first is in '%s'"
             % (second / 'package.xml', first / 'package.xml')]
         assert str(errors[0]) in caplog.text
 
@@ -373,7 +373,7 @@ class TestSpecsThatAreLeftOut:
         assert (error.spec_name, error.package, error.spec_type) == (
             'bad_package/Camera', 'bad_package', spec_type)
         assert str(error) == (
-            "%s:1:7: 'bad_package/Camera' is the name of an interface already, in '%s'"
+            "%s:1:7: 'bad_package/Camera' is already the name of an interface, in '%s'"
             % (tmp_path / 'bad' / 'again.yaml', tmp_path / 'bad' / 'Camera.yaml'))
         assert self.index.interface_paths['bad_package/Camera'].endswith('Camera.yaml')
 
@@ -485,7 +485,7 @@ class TestSpecIndex:
         with pytest.raises(DuplicateNameException) as raised:
             index.add_interface(CapabilityInterface(name, 1), 'again.yaml', package)
         assert str(raised.value) == (
-            "again.yaml: '%s/%s' is the name of %s already, in '%s.yaml'"
+            "again.yaml: '%s/%s' is already the name of %s, in '%s.yaml'"
             % (package, name, kind, name))
 
     @pytest.mark.parametrize('add, spec, error', [

@@ -317,7 +317,7 @@ def test_a_provider_of_nothing_and_two_specs_of_one_name_are_errors(tmp_path, mo
     assert found(
         tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA, interfaces__Other_yaml=CAMERA,
         providers__usb_camera_yaml=USB_CAMERA.replace('ours/Camera', 'ours/Camrea')) == [
-        "interfaces/Other.yaml:1:7: error: 'ours/Camera' is the name of an interface already, in "
+        "interfaces/Other.yaml:1:7: error: 'ours/Camera' is already the name of an interface, in "
         + quoted_path(str(tmp_path / 'ours/interfaces/Camera.yaml')),
         "providers/usb_camera.yaml:4:13: error: provider 'ours/usb_camera' implements "
         "'ours/Camrea', which is not an interface that any package exports "
@@ -339,7 +339,7 @@ def test_a_provider_of_nothing_and_two_specs_of_one_name_are_errors(tmp_path, mo
       "'kobuki'?)"]),
     (DANCE.replace('rocon:/', 'rocon://'),
      ["1:16: warning: compatibility: 'rocon://kobuki' is read as 'rocon:/kobuki', since kobuki is "
-      'a hardware_platform and no concert']),
+      'a hardware_platform, not a concert']),
     (DANCE.replace('dance.launch', 'dnace.launch'),
      ["2:9: error: launch file 'dnace.launch' does not exist (did you mean 'dance.launch'?)"]),
     (DANCE.replace('dance.launch', '../../../etc/passwd'),
@@ -355,9 +355,9 @@ def test_a_provider_of_nothing_and_two_specs_of_one_name_are_errors(tmp_path, mo
     (DANCE + 'parent_name: dance',
      ["3:14: error: rapp 'ours/dance' is its own ancestor: ours/dance -> ours/dance"]),
     ('launch: dance.launch',
-     ['1:9: warning: the rapp has launch and no compatibility, so it never runs']),
+     ['1:9: warning: the rapp has launch but no compatibility, so it never runs']),
     ('compatibility: rocon:/',
-     ['1:16: warning: the rapp has compatibility and no launch, so it never runs']),
+     ['1:16: warning: the rapp has compatibility but no launch, so it never runs']),
     ('launch: 7', ['1:9: error: launch is 7, expected text']),
     (DANCE + 'public_interface: x.interface',
      ["3:19: error: public_interface 'x.interface' does not exist"]),
@@ -454,7 +454,7 @@ def test_interactions_in_all_forms_are_found(tmp_path, monkeypatch, text):
     ('[{name: 7, compatibility: "rocon:/"}]', ['1:9: error: name is 7, expected text']),
     ('[{name: A, compatibility: "rocon://pc"}]',
      ["1:28: warning: compatibility: 'rocon://pc' is read as 'rocon:/pc', since pc is a "
-      'hardware_platform and no concert']),
+      'hardware_platform, not a concert']),
     ('[{name: A, compatibility: "rocon:/", comand: x}]',
      ["1:38: warning: unknown key 'comand' in an interaction (did you mean 'command'?)"]),
     ('[{name: A, compatibility: "rocon:/", namespace: a-b}]',

@@ -69,7 +69,7 @@ def test_adding_a_dependency():
     provider.add_depends_on('b/A', 'c/d')
     assert list(provider.dependencies) == ['b/C', 'b/A']
     assert [one.preferred_provider for one in provider.dependencies.values()] == [None, 'c/d']
-    with pytest.raises(RuntimeError, match="depends on 'b/C' already"):
+    with pytest.raises(RuntimeError, match="already depends on 'b/C'"):
         provider.add_depends_on('b/C', 'c/e')
     for names in (('C',), ('b/D', 'd'), (3,), ('b/D', '')):
         with pytest.raises(ValueError, match='expected package/name'):

@@ -191,11 +191,11 @@ def test_a_vocabulary_of_ones_own_is_never_completed():
     ({'hardware_platform': [['a']]}, ('hardware_platform', 0), 'a list stands where'),
     ({'hardware_platform': {'a': ['b', ['c']]}}, ('hardware_platform', 'a', 1), 'a list stands'),
     ({'hardware_platform': {'a': ['a']}}, ('hardware_platform', 'a', 0), "cannot be in 'a'"),
-    ({'hardware_platform': {'a': {'b': ['a']}}}, ('hardware_platform', 'a', 'b', 0), 'no group'),
+    ({'hardware_platform': {'a': {'b': ['a']}}}, ('hardware_platform', 'a', 'b', 0), 'at the top'),
     ({'hardware_platform': {'a': ['c'], 'b': ['c']}}, ('hardware_platform', 'b', 0),
-     "'c' cannot be in 'b', since it is in 'a' already"),
+     "'c' cannot be in 'b', since it is already in 'a'"),
     ({'hardware_platform': ['c', {'b': [{'c': 'd'}]}]}, ('hardware_platform', 1, 'b', 0, 'c'),
-     "'c' cannot be in 'b', since it is in no group already"),
+     "'c' cannot be in 'b', since it is already at the top"),
 ])
 def test_rules_that_do_not_fit_are_refused(rules, path, problem):
     with pytest.raises(RulesError) as caught:

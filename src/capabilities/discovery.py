@@ -15,8 +15,8 @@ Three steps lead from the folders of a package path to a `SpecIndex`:
 >>> spec_files = spec_file_index_from_package_index(packages)
 >>> spec_index, errors = spec_index_from_spec_file_index(spec_files)
 
-What is wrong with one package or one spec is reported, and costs only that one and what stands on
-it. A path that leads out of its package is followed.
+A faulty package or spec is reported and left out, with the specs that refer to it; all others are
+indexed. A path that leads out of its package is followed.
 """
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def package_index_from_package_path(
     :param package_paths: the folders, an iterable of str, or one str. A package in an earlier one
         hides those of its name in later ones.
     :param list errors: what is wrong is appended to it, as `PackageError`: a package.xml that is
-        not valid, and a package that is twice below the same folder, of which the first counts.
+        not valid, and a second package of one name below the same folder.
         It is logged in any case.
     :returns: dict from the name to the ``catkin_pkg.package.Package``, whose ``filename`` is the
         absolute path of its package.xml
@@ -145,8 +145,8 @@ def spec_index_from_spec_file_index(
         - `OSError`, if its file cannot be read,
         - `capabilities.specs.common.InvalidSpec`, if it is not valid, or has the name of another
           package in front of its own,
-        - `DuplicateNameException`, if there is a spec of that name already,
-        - `InterfaceNameNotFoundException`, if the interface that it stands on is not there.
+        - `DuplicateNameException`, if another spec has that name,
+        - `InterfaceNameNotFoundException`, if what it redefines or implements does not exist.
 
     >>> spec_index_from_spec_file_index({})[1]
     []

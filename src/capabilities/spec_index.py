@@ -1,8 +1,8 @@
 """
 All capability specs of a package path, each by its name, ``package/name``.
 
-A `SpecIndex` hands out the specs themselves, in dicts and lists that are made for each call: to
-change one of those does not change the index, to change a spec does. What it refuses is raised, as
+A `SpecIndex` returns the specs themselves, in a new dict or list for each call: a change to one of
+those does not change the index, a change to a spec does. What it refuses is raised, as
 `DuplicateNameException`, `InterfaceNameNotFoundException` or, where the name of another package is
 in front of its own, `capabilities.specs.common.InvalidSpec`.
 
@@ -53,7 +53,7 @@ class DuplicateNameException(_RefusedSpec):
 
 class InterfaceNameNotFoundException(_RefusedSpec):
     """
-    A semantic interface or provider of an interface that is not there.
+    A semantic interface or provider of an interface that does not exist.
 
     Attributes: those of `DuplicateNameException`, and ``interface`` (str), the name that it
     redefines or implements.
@@ -272,7 +272,7 @@ class SpecIndex:
                               ('a provider', self._providers)):
             if name in entries:
                 raise DuplicateNameException(
-                    '%s is the name of %s already, in %s' % (
+                    '%s is already the name of %s, in %s' % (
                         quoted(name), kind, quoted_path(entries[name][1])),
                     str(file_path), *place, name, package_name, spec.spec_type)
         return name

@@ -5,7 +5,7 @@ A package adds values to the vocabulary with a file of rules and, in its package
 
     <export><rocon_uri rules="${prefix}/rules/our_robots.yaml"/></export>
 
-What is wrong with one file costs only what that file says. `rocon_uri.vocabulary` makes a
+A faulty file adds nothing; the others still count. `rocon_uri.vocabulary` makes a
 vocabulary of what is read here.
 """
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """
 The values that one field of a rocon URI may have, and the groups that they form.
 
-A group stands for its members, at every depth.
+A group covers its members, at every depth.
 """
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def members(rules: object, path: Tuple[object, ...] = ()) -> Iterator[Member]:
 
     :param rules: a mapping from a name to the rules below it, a list of names and mappings, a
         single name, or None for nothing
-    :param path: where the rules stand, for errors
+    :param path: where the rules are, for errors
     :returns: iterator of (name, rules below it, path)
 
     >>> [name for name, below, path in members({'a': None, 'b': ['c']})]
@@ -96,10 +96,10 @@ class FieldVocabulary:
 
     def children(self, group: Optional[str] = None) -> List[str]:
         """
-        What stands directly in a group, or at the top.
+        The members directly in a group, or at the top.
 
         :param group: str, or None for the top
-        :returns: list of str; empty for a value that is no group
+        :returns: list of str; empty for a value that is not a group
 
         >>> from rocon_uri import Vocabulary
         >>> Vocabulary.bundled().field('hardware_platform').children('mobile_device')
@@ -109,7 +109,7 @@ class FieldVocabulary:
 
     def leaves(self, value: str) -> List[str]:
         """
-        The values that a group stands for, at every depth; a value stands for itself.
+        The values that a group covers, at every depth; a value covers itself.
 
         :param str value: a registered value or group
         :returns: list of str, in the order of the vocabulary
@@ -122,7 +122,7 @@ class FieldVocabulary:
 
     def mask(self, value: str) -> int:
         """
-        The same as a set of bits, one for each value that is no group.
+        The same as a set of bits, one for each value that is not a group.
 
         :param str value: a registered value or group
         :returns: int
@@ -135,7 +135,7 @@ class FieldVocabulary:
 
     def covering(self, mask: int) -> List[str]:
         """
-        The fewest values and groups that stand for exactly the values of a mask.
+        The fewest values and groups that cover exactly the values of a mask.
 
         :param int mask: as `mask` returns
         :returns: list of str
@@ -162,9 +162,9 @@ class FieldVocabulary:
         This vocabulary with more values and groups.
 
         :param rules: as `members` takes; a name that is known is the group that exists
-        :param path: where the rules stand, for errors
+        :param path: where the rules are, for errors
         :returns: FieldVocabulary
-        :raises RulesError: for a name that is no ROS base name or is in two groups
+        :raises RulesError: for a name that is not a ROS base name, or is in two groups
         """
         parents = dict(self._parents)
         # In the order of the rules and in depth: what a group is in is known once it is extended.
@@ -176,8 +176,8 @@ class FieldVocabulary:
             name = _checked_name(self.name, given, place)
             known = parents.setdefault(name, parent)
             if parent is not None and known != parent:
-                raise RulesError("%s '%s' cannot be in '%s', since it is %s already" % (
-                    self.name, name, parent, "in '%s'" % known if known else 'in no group'), place)
+                raise RulesError("%s '%s' cannot be in '%s', since it is already %s" % (
+                    self.name, name, parent, "in '%s'" % known if known else 'at the top'), place)
             waiting += [(name, entry) for entry in members(below, place)][::-1]
         return FieldVocabulary(self.name, parents)
 

@@ -17,7 +17,7 @@ __all__ = ['from_msg', 'to_msg']
 
 def to_msg(uri: RoconURI) -> Message:
     """
-    The message that says what this URI says.
+    The message with the content of a URI.
 
     :param RoconURI uri: a URI
     :returns: ``rocon_uri.msg.RoconURI``
@@ -38,10 +38,10 @@ def to_msg(uri: RoconURI) -> Message:
 
 def from_msg(msg: Message) -> RoconURI:
     """
-    The URI that this message says, checked as :func:`rocon_uri.parse` checks a text.
+    The URI with the content of a message, checked as :func:`rocon_uri.parse` checks a text.
 
     Each string of the message is a value as it stands: a ``/``, ``|``, ``#`` or ``%`` in one is
-    never read as syntax. An empty list, like an empty name, stands for any.
+    never read as syntax. An empty list, like an empty name, is ``*``.
 
     :param msg: ``rocon_uri.msg.RoconURI``, from anybody
     :returns: RoconURI, equal to the one that the message was made from

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ['default_robot_name', 'default_robot_type', 'generate_platform_rocon_uri']
 
-#: What a machine is that nobody has told what it is.
+#: The hardware platform of a machine that was given no other.
 default_robot_type = 'pc'
 
 _OS_RELEASE_FILES = ('/etc/os-release', '/usr/lib/os-release')
@@ -30,8 +30,8 @@ def generate_platform_rocon_uri(robot_type: str, robot_name: str) -> str:
     """
     The rocon URI of this machine, all four fields of it.
 
-    Type and name are made legal. The type need not be registered: whoever reads the text will
-    say so. The application framework is ``ROS_DISTRO`` where that is registered and
+    Type and name are made legal. The type need not be registered: reading the text reports
+    that. The application framework is ``ROS_DISTRO`` where that is registered and
     ``ros_other`` elsewhere; the operating system is the nearest registered value to what
     rospkg's ``os_detect``, or the system itself, says: the release, the distribution, or
     ``linux``.
@@ -51,7 +51,7 @@ def generate_platform_rocon_uri(robot_type: str, robot_name: str) -> str:
 
 def default_robot_name() -> str:
     """
-    The name of a robot that nobody has named: this machine's host name, without its domain.
+    The default name of a robot: this machine's host name, without its domain.
 
     :returns: str, to be made legal by :func:`generate_platform_rocon_uri`; never empty
 
@@ -94,7 +94,7 @@ def _system_names() -> List[str]:
         import rospkg.os_detect     # slow to import, and not there without ROS
         name, _, codename = rospkg.os_detect.OsDetect().detect_os()
         return [codename, name + codename, name]
-    except Exception:       # whatever its detectors stumble over, a robot can say what it is
+    except Exception:       # a robot has a URI even where a detector fails
         return _system_names_without_rospkg()
 
 

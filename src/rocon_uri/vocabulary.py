@@ -172,7 +172,7 @@ def read_rules(vocabulary: Vocabulary, path: str) -> Vocabulary:
 
 def vocabulary_of_packages(packages: Mapping[str, Package]) -> Tuple[Vocabulary, List[Fault]]:
     """
-    What this machine knows, and what these packages add.
+    The vocabulary of this machine, with what these packages add.
 
     :param packages: as `rocon_uri.sources.packages.find_packages` returns them
     :returns: (`Vocabulary`, list of `YamlError` and `OSError`); a file with a fault adds nothing

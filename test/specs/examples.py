@@ -243,7 +243,7 @@ BEYOND_SCHEMAS = {
         ('interface: !robot {}',
          "4:12: tag '!robot' is not one of the core types, and no other is read"),
         ('--- {}', '4:1: a second document starts here, where one is expected'),
-        ('interface: &a {topics: *a}', "4:24: alias '*a' is within what it stands for"),
+        ('interface: &a {topics: *a}', "4:24: alias '*a' is inside the node that it refers to"),
         ('interface: ' + '[' * 50000, '4:111: nested deeper than 100'),
     ]),
 }

@@ -131,7 +131,7 @@ class CapabilityProvider(RemappingSpec):
         name = SpecName(capability_name)
         provider = None if preferred_provider is None else SpecName(preferred_provider)
         if name in self._dependencies:
-            raise RuntimeError('the provider depends on %s already' % shown(name))
+            raise RuntimeError('the provider already depends on %s' % shown(name))
         self._dependencies[name] = DependsOnRelationship(name, provider)
 
     def to_dict(self) -> Dict[str, object]:

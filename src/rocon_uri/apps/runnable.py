@@ -1,9 +1,9 @@
 """
-Can a rapp run on a robot, and if not, what is against it?
+Can a rapp run on a robot, and if not, why not?
 
 A rapp runs where it is an implementation, where its compatibility string meets the robot's URI, and
 where its launch file and each capability that it requires can be started. The verdict has
-everything that is against, not only the first.
+all reasons against it, not only the first.
 """
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class Verdict(NamedTuple):
 
     #: what is judged
     rapp: Rapp
-    #: everything that is against; empty if it runs
+    #: all reasons against it; empty if it runs
     reasons: Tuple[Reason, ...]
     #: the providers of capabilities to start for it, in order; as many as can be had
     providers: Tuple[str, ...]
@@ -133,7 +133,7 @@ def runnable(rapp: Rapp, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
     ours/dance does not run: 'rocon:/pr2' does not include this robot: hardware_platform is kobuki
     """
     if isinstance(robot_uri, str):
-        parse(robot_uri, Vocabulary.open())     # a fault in it is none of the rapp's
+        parse(robot_uri, Vocabulary.open())     # a fault in it is not the rapp's
     if launch_files is None:
         launch_files = LaunchFiles()
     reasons = [*_platform_reasons(rapp, robot_uri), *_launch_reasons(rapp, launch_files)]

@@ -4,11 +4,11 @@ Say whether two URIs are compatible, and why.
 Example:
   rocon_uri check 'rocon:/robot/arm_*/ros' 'rocon:/ur5e/.*_left/noetic/focal'
 
-They are if there can be a resource that is both. Prints that; how the resources
-that A stands for lie to those of B: equal, subset, superset, overlap or disjoint;
-and what each field has in common, for two name patterns an example. The relation
-is left out where one is not registered and the other is rocon:/, which anything
-is compatible with.
+They are compatible if a resource can match both. Prints the answer; the relation
+of the resources that A matches to those that B matches, which is equal, subset,
+superset, overlap or disjoint; and what each field has in common, with an example
+for two name patterns. There is no relation if one URI has unregistered values and
+the other is rocon:/, which is compatible with everything.
 
 Exit status: 0 if they are compatible, 1 if they are not, 2 if one is not legal or
 their name patterns are too complex to compare.
@@ -35,9 +35,9 @@ if TYPE_CHECKING:
 __all__ = ['add_arguments', 'main']
 
 _MEANINGS = {
-    Relation.EQUAL: 'both stand for the same resources',
-    Relation.SUBSET: 'the second stands for all that the first stands for, and more',
-    Relation.SUPERSET: 'the first stands for all that the second stands for, and more',
+    Relation.EQUAL: 'both match the same resources',
+    Relation.SUBSET: 'the second matches all that the first matches, and more',
+    Relation.SUPERSET: 'the first matches all that the second matches, and more',
     Relation.OVERLAP: 'they have resources in common, and each has others too',
     Relation.DISJOINT: 'they have no resource in common',
 }

@@ -4,9 +4,9 @@ Show the vocabulary, the values that fields may have, as a tree.
 Example:
   rocon_uri fields operating_system
 
-Below a group, farther to the right, stand its members; it stands for all of them,
-so linux covers ubuntu and ubuntu covers focal. The values that packages on this
-machine and ROCON_URI_RULES add are among them.
+The members of a group are below it, indented. A group covers all its members, so
+linux covers ubuntu and ubuntu covers focal. The tree has the values that packages
+on this machine and ROCON_URI_RULES add.
 
 Exit status: 0; 2 for a field that has no vocabulary.
 JSON: {"fields": {FIELD: {VALUE: {...}, ...}, ...}, "errors": []}, where each value

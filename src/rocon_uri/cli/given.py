@@ -52,7 +52,7 @@ class GivenURI:
     def mention_one_slash(self) -> None:
         """Say it if ``//`` was read as ``/``, since that can hide a typing error."""
         if self.uri.read_with_one_slash:
-            say('rocon_uri: note: %s is read as %s, since %s is a hardware_platform and no concert'
+            say('rocon_uri: note: %s is read as %s, since %s is a hardware_platform, not a concert'
                 % (quoted(self.text), quoted(self.uri.short), self.uri.hardware_platform))
 
     def as_json(self) -> Dict[str, object]:

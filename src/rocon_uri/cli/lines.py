@@ -1,4 +1,4 @@
-"""The lines of a file or of standard input, as many at once as there are."""
+"""The lines of a file or of standard input, in batches."""
 from __future__ import annotations
 
 import os
@@ -18,13 +18,13 @@ _BATCH = 1 << 20    # bytes
 
 def read_lines(path: str) -> Iterator[List[str]]:
     """
-    Read lines, with a bar on a terminal if they are many.
+    Read lines, with a progress bar on a terminal if the file is large.
 
-    Of a line that is longer than any URI, there may be no more than the start.
+    A line that is longer than any URI may be cut.
 
     :param str path: the file, ``-`` for standard input
     :returns: iterator of lists of str, each of the lines that can be had without waiting, but of
-        no more than a few megabytes; bytes that are no text are surrogates
+        no more than a few megabytes; bytes that are not UTF-8 become surrogates
     :raises OSError: if it cannot be read
     """
     with open(0 if path == '-' else path, 'rb', closefd=path != '-') as file:

@@ -6,10 +6,10 @@ Examples:
   rocon_uri match --matrix --requests-in apps.txt --in fleet.txt
 
 A FILE has one URI a line; blank lines and lines whose first character is # are
-skipped, and so are bad ones, which are reported with their number. Standard input
-is -. Prints the resources as they stand in FILE, one a line, after the request
-where there are several: its app, or else its text. With --matrix prints every
-resource, and before it a column for each request: x for compatible, . for not, ?
+skipped. Bad lines are reported with their number, and skipped. Standard input is -.
+Prints the compatible resources as written in FILE, one a line; if there are several
+requests, the app or the text of the request comes first. With --matrix prints every
+resource, after a column for each request: x for compatible, . for not compatible, ?
 for name patterns that are too complex to compare.
 
 Exit status: 0 if anything was found, 1 if nothing was, 2 if a request, a line or a
@@ -83,7 +83,7 @@ class Matches:
 
     :param requests: list of GivenURI
     :param resources: iterable of lists of GivenURI
-    :param Report report: is told of the undecided ones, after all others
+    :param Report report: gets the undecided pairs, after all others
     :param bool every: also the resources that no request is compatible with
 
     Iteration gives each resource with a list of what is said of it to each request: a bool, or

@@ -81,13 +81,13 @@ def package_path(args: argparse.Namespace, report: PackageReport,
     The folders to look for packages in.
 
     :param args: those of the verb, which took `add_package_path`
-    :param report: is told of folders that were given and are not there
+    :param report: gets the folders of --package-path that do not exist
     :param bool is_needed: is it reported if none were given?
     :returns: list of str
     """
     text = args.package_path
     if text is None:
-        text = os.environ.get('ROS_PACKAGE_PATH', '')   # often has folders that are not there
+        text = os.environ.get('ROS_PACKAGE_PATH', '')   # often names folders that do not exist
     folders = [folder for folder in text.split(os.pathsep) if folder]
     if is_needed and not folders:
         report.bad('no package path, expected ROS_PACKAGE_PATH or --package-path')
@@ -103,7 +103,7 @@ def workspace(args: argparse.Namespace, report: PackageReport) -> Workspace:
     All that the packages on the package path export.
 
     :param args: those of the verb, which took `add_package_path`
-    :param report: is told what is wrong with them
+    :param report: gets their faults
     :returns: `rocon_uri.workspace.Workspace`
     """
     from rocon_uri.workspace import read_workspace  # here, since it loads catkin_pkg and YAML

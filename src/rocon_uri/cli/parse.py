@@ -8,7 +8,7 @@ Prints each URI with its canonical text, which has all fields, its short one, an
 its fields; concert_name and rocon_app where they are set. A note says so if //
 was read as /, as in rocon://turtlebot2/bob.
 
-Exit status: 0 if all are legal, else 2; the legal ones are shown all the same.
+Exit status: 0 if all are legal, else 2; the legal ones are shown in any case.
 JSON: {"uris": [URI, ...], "errors": [ERROR, ...]}
 """
 from __future__ import annotations

@@ -1,16 +1,16 @@
 """
-Show the URI of this machine: what it is, what runs on it.
+Show the URI of this machine.
 
 Examples:
   rocon_uri platform
   rocon_uri platform --robot-type turtlebot2 --robot-name 'Cybernetic Pirate'
 
 Type and name are made legal. The application framework is that of ROS_DISTRO, or
-ros_other; the operating system the nearest one that is registered.
+ros_other. The operating system is the nearest one that is registered.
 
-Exit status: 0; 2 for a type that is not registered, though the URI is printed all
-the same, and for an empty type or name
-JSON: {"uris": [URI], "errors": [ERROR, ...]}, as of parse
+Exit status: 0; 2 for an unregistered type, though the URI is still printed, and
+for an empty type or name
+JSON: {"uris": [URI], "errors": [ERROR, ...]}
 """
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ _SMALL = 1 << 20    # bytes; such a file is read before anybody could see a bar
 
 
 class _NoBar:
-    """What stands in for a bar, and for its absence."""
+    """Takes the place of a bar where none is shown."""
 
     def __enter__(self) -> _NoBar:
         return self
@@ -24,7 +24,7 @@ class _NoBar:
         pass
 
     def update(self, read: int) -> None:
-        """So many more bytes have been read."""
+        """Note that this many more bytes have been read."""
 
 
 def progress(size: Optional[int]) -> Union[tqdm, _NoBar]:

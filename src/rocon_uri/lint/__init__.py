@@ -66,7 +66,7 @@ def check_package_index(checked: Mapping[str, Package], others: Mapping[str, Pac
             findings += check_interactions_file(path, folder, workspace)
     for path, spec in workspace.specs():
         folder = folders.get(spec.name.partition('/')[0], '')
-        if folder and is_inside(path, folder):      # to export what is elsewhere is fault enough
+        if folder and is_inside(path, folder):      # else the manifest's finding is enough
             findings += check_spec(spec, path, folder, workspace)
     for rapp in workspace.own_rapps.values():
         folder = folders.get(rapp.package, '')
@@ -76,7 +76,7 @@ def check_package_index(checked: Mapping[str, Package], others: Mapping[str, Pac
 
 
 def _is_in_one_of(path: str, folders: Collection[str]) -> bool:
-    """Is this a file in one of the folders? What is missing is a fault of who names it."""
+    """Is this a file in one of the folders? A missing file is a fault of the file that names it."""
     if not os.path.isfile(path):
         return False
     folder = os.path.dirname(os.path.normpath(path))

@@ -165,7 +165,7 @@ class CheckedFile(Reading):
                 self._place_in_text(text, error.span[0], place))
             return
         if uri.read_with_one_slash:
-            self.warn('compatibility: %s is read as %s, since %s is a hardware_platform and no '
+            self.warn('compatibility: %s is read as %s, since %s is a hardware_platform, not a '
                       'concert' % (quoted(text), quoted(uri.short), uri.hardware_platform),
                       self._place_in_text(text, 0, place))
 

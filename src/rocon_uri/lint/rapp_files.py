@@ -40,7 +40,7 @@ def check_rapp(rapp: Rapp, package_folder: str, workspace: Workspace) -> List[Fi
     if not rapp.is_implementation:
         for key, lacking in (('launch', 'compatibility'), ('compatibility', 'launch')):
             if getattr(rapp, key) is not None:
-                file.warn('the rapp has %s and no %s, so it never runs' % (key, lacking),
+                file.warn('the rapp has %s but no %s, so it never runs' % (key, lacking),
                           rapp.position(key))
     folder = os.path.dirname(file.path)
     findings: List[Finding] = []

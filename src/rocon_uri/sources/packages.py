@@ -44,7 +44,7 @@ _NOTHING_BELOW = frozenset([MANIFEST, 'manifest.xml', 'rospack_nosubdirs'])
 
 class PackageError(LocatedError):
     """
-    A package that is left out: its manifest is at fault, or another package has its name.
+    A package that is left out: its manifest is faulty, or another package has its name.
 
     Its attributes are those of `rocon_uri.sources.located.LocatedError`; ``file_name`` is its
     ``package.xml``, and ``msg`` an earlier name of ``problem``.
@@ -140,7 +140,7 @@ def find_packages(paths: Iterable[str], errors: Optional[List[PackageError]] = N
             try:
                 package = package_from_manifest(os.path.join(folder, MANIFEST))
                 if package.name in found:
-                    raise PackageError('package %s is there already, in %s' % (
+                    raise PackageError('duplicate package %s, the first is in %s' % (
                         quoted(package.name), quoted_path(found[package.name].manifest)),
                         package.manifest)
                 found[package.name] = package
@@ -172,7 +172,7 @@ def package_folders(path: str) -> Iterator[str]:
             visited.add((status.st_dev, status.st_ino))
             with os.scandir(folder) as entries:
                 is_folder = {entry.name: _is_folder(entry) for entry in entries}
-        except (OSError, ValueError):   # it is gone, cannot be read or is none; NUL in its name
+        except (OSError, ValueError):   # gone, unreadable, not a directory, NUL in its name
             continue
         if not _IGNORE_MARKERS.isdisjoint(is_folder):
             continue

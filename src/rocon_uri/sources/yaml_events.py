@@ -156,7 +156,7 @@ class Reader:
         return value
 
     def _key(self, event: Event, depth: int) -> Scalar:
-        """The key that an alias stands for; a collection cannot be one."""
+        """The key that an alias refers to; a collection cannot be one."""
         if event.__class__ is AliasEvent:
             key = self._alias(event, depth)
             if not isinstance(key, (YamlMapping, YamlSequence)):
@@ -185,13 +185,13 @@ class Reader:
         self.anchors[event.anchor] = _UNFINISHED
 
     def _alias(self, event: Event, depth: int) -> Value:
-        """The data that an alias stands for, if that is not too much."""
+        """The data that an alias refers to, if that is not too much."""
         name = quoted('*' + event.anchor)
         if event.anchor not in self.anchors:
             raise self._error('alias %s has no anchor before it' % name, event)
         data = self.anchors[event.anchor]
         if data is _UNFINISHED:
-            raise self._error('alias %s is within what it stands for' % name, event)
+            raise self._error('alias %s is inside the node that it refers to' % name, event)
         self._measure(data, event, depth)
         return data
 

@@ -6,17 +6,17 @@ Examples:
   rocon_uri specs check src
   rocon_uri specs check . --format github
 
-Looks at the specs, rapps and rules that the packages in and below PATH export,
-and at every .interactions file in them. They may refer to each other and to what
-is on the package path. Prints what it finds as FILE:LINE:COLUMN: SEVERITY: TEXT,
-or as GitHub takes it. An error is what does not work, or not as it says; a
-warning is what works but is probably not what was meant.
+Checks the specs, rapps and rules that the packages in and below PATH export, and
+every .interactions file in them. They may refer to each other and to packages on
+the package path. Prints findings as FILE:LINE:COLUMN: SEVERITY: TEXT, or in the
+form that GitHub reads. An error is something that does not work, or not as it is
+written; a warning is something that works but was probably not meant.
 
 Exit status: 0 if there is no error, warnings or not; 1 if there is one; 2 if a
 PATH is not a directory or has no package in it, though the others are checked
 JSON: {"findings": [{"file", "line", "column", "severity", "text"}, ...],
-"packages": [NAME, ...], "errors": [ERROR, ...]}, with null for the line and the
-column of what is in no one place
+"packages": [NAME, ...], "errors": [ERROR, ...]}, with null as line and column
+of a finding that has no place
 """
 from __future__ import annotations
 

@@ -6,7 +6,8 @@ Example:
 
 Exit status: 0; 2 if a folder or a file was bad, though the others are listed
 JSON: {"specs": [{"name", "spec_type", "description", "file", "implements",
-"redefines"}, ...], "errors": [ERROR, ...]}, with null for what a spec has not
+"redefines"}, ...], "errors": [ERROR, ...]}, with null for
+what a spec does not have
 """
 from __future__ import annotations
 

@@ -5,15 +5,15 @@ Examples:
   rocon_uri specs show std_capabilities/DifferentialMobileBase
   rocon_uri specs show kobuki_capabilities/kobuki_bumper
 
-Of an interface and a semantic interface prints the ROS names, those of the
-latter as its clients see them, and the providers; of a provider what it
-implements, remaps and depends on, and the order in which to start them.
+For an interface or a semantic interface prints the ROS names, as clients see them,
+and the providers. For a provider prints what it implements, remaps and depends on,
+and the order in which to start providers.
 
 Exit status: 0; 2 if there is no spec NAME, or a folder or a file was bad
 JSON: {"spec": {...}, "spec_type", "file", "resolved": {...},
 "providers": [NAME, ...], "start_order": [NAME, ...], "faults": [TEXT, ...],
-"errors": [ERROR, ...]}; spec and resolved are as in a file of specs, and null is
-for what there is not
+"errors": [ERROR, ...]}; spec and resolved are as in the file of a spec; what does
+not exist is null
 """
 from __future__ import annotations
 
@@ -75,14 +75,14 @@ def _meant(name: str, names: List[str]) -> List[str]:
 
 class Shown:
     """
-    A spec, and what is to be said of it from looking at the others.
+    A spec, and what the other specs say about it.
 
     - ``resolved``: the interface that clients of a semantic interface see, or None
     - ``provider``: the spec, if it is a provider, or None
     - ``interface``: that one, or the interface that the spec itself is, or None
     - ``providers``: list of str, those of an interface or semantic interface
     - ``start_order``: list of str, what is to be started for a provider, itself last
-    - ``faults``: list of str, what is in the way of that
+    - ``faults``: list of str, what prevents that
     """
 
     def __init__(self, spec: Optional[Spec], index: SpecIndex) -> None:
