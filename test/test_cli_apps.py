@@ -279,8 +279,8 @@ def test_each_kind_of_reason_can_be_ignored(apps_json):
 
 
 @pytest.mark.parametrize('given, hint', [
-    ('launch-mising', "'launch-mising' is no reason (did you mean 'launch-missing'"),
-    ('x', "'x' is no reason, expected one of virtual, platform, no-interface, ")])
+    ('launch-mising', "'launch-mising' is not the ID of a reason (did you mean 'launch-missing'"),
+    ('x', "'x' is not the ID of a reason, expected one of virtual, platform, no-interface, ")])
 def test_to_ignore_what_is_no_reason_is_an_error(capsys, given, hint):
     assert main(['apps', '--ignore', given]) == 2
     assert hint in capsys.readouterr().err

@@ -7,23 +7,23 @@ Examples:
   rocon_uri apps --package-path ~/catkin_ws/src --defaults defaults.yaml
   rocon_uri apps --all --ignore launch-missing
 
-Looks at all rapps and capability specs that the packages below PATH export, and
-takes it that the robot has what the providers among them provide. An app runs if
-the robot's URI is compatible with it, and its launch file and all capabilities
-that it requires can be started. Where several providers implement one, FILE says
-which to take: a YAML mapping from interfaces to providers, on its own or as
-"defaults". At the end of each reason is its ID, by which --ignore leaves it out.
+Reads all rapps and capability specs that the packages below PATH export, and
+assumes that the robot has their providers. An app runs if the robot's URI is
+compatible with it, and if its launch file and all capabilities that it requires
+can be started. If several providers implement a capability, FILE says which to
+take: a YAML mapping from interfaces to providers, on its own or as "defaults".
+Each reason ends with its ID, which --ignore takes.
 
 Exit status: 0 if an app runs; 1 if none does; 2 if the robot, a folder or a file
-was bad, though all else is judged, even for a robot that is not registered
+was bad, though the rest is judged, even for a robot that is not registered
 JSON: {"robot": URI, "apps": [{"name", "display", "description", "compatibility",
 "file", "launch", "runs": BOOL, "virtual": BOOL, "providers": [NAME, ...],
 "running": {CAPABILITY: PROVIDER, ...},
 "reasons": [{"kind", "text", "fields", "fault"}, ...]}, ...],
 "errors": [ERROR, ...]}
 with the ID of a reason as its kind, providers in the order in which to start
-them, fields as of check, and null for what there is not; apps that do not run are
-only there with --all
+them, fields as "rocon_uri check --help" describes them, and null for what does not
+exist; apps that do not run are included only with --all
 """
 from __future__ import annotations
 
@@ -55,24 +55,24 @@ _REASONS_SHOWN = 20     # of one app; a person has enough by then
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the verb takes."""
     parser.add_argument('--robot', metavar='URI',
-                        help='what the robot is (default: this machine, as of platform)')
+                        help='what the robot is (default: this machine, as platform prints it)')
     add_package_path(parser)
     parser.add_argument('--all', action='store_true',
                         help='also the apps that it cannot run, and why')
     parser.add_argument('--defaults', metavar='FILE',
                         help='which provider to take where there are several')
     parser.add_argument('--ignore', metavar='ID', type=_reason_id, action='append', default=[],
-                        help='leave reasons of this kind out, as where apps are installed '
-                             'elsewhere (may be repeated)')
+                        help='leave reasons of this kind out, for example if apps are '
+                             'installed elsewhere (may be repeated)')
     add_running(parser, 'also which of the capabilities that an app requires run, and by which '
                         'provider')
 
 
 def _reason_id(text: str) -> str:
-    """The id of a reason; argparse reports another text."""
+    """The id of a reason; argparse reports any other text."""
     from rocon_uri.apps.runnable import REASON_IDS  # here, since it loads YAML
     if text not in REASON_IDS:
-        raise ArgumentTypeError('%s is no reason%s' % (
+        raise ArgumentTypeError('%s is not the ID of a reason%s' % (
             quoted(text), did_you_mean(near_misses(text, REASON_IDS))
             or ', expected one of %s' % ', '.join(REASON_IDS)))
     return text

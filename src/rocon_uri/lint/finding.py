@@ -25,7 +25,7 @@ class Finding(Located):
 
     #: the file
     file_name: str
-    #: where in it, counted from 1; None where it is in no one place
+    #: where in it, counted from 1; None if it concerns the whole file
     line: Optional[int]
     #: counted from 1, or None
     column: Optional[int]

@@ -10,7 +10,7 @@ __all__ = ['NOWHERE', 'Fault', 'Located', 'LocatedError', 'Place', 'located']
 #: A line and a column, counted from 1; ``None`` for both where they are not known.
 Place = Tuple[Optional[int], Optional[int]]
 
-#: the place of what is in no one place of its file
+#: the place of a fault that concerns a whole file
 NOWHERE: Place = (None, None)
 
 
@@ -32,7 +32,7 @@ def located(problem: str, file_name: str, line: Optional[int], column: Optional[
 
 
 class Located:
-    """What all that says FILE:LINE:COLUMN: PROBLEM has in common; its ``str`` is that line."""
+    """What errors, warnings and findings have in common; ``str`` is FILE:LINE:COLUMN: PROBLEM."""
 
     #: what is wrong, without the place
     problem: str
