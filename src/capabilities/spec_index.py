@@ -166,7 +166,7 @@ class SpecIndex:
         the other way round: the two have different ROS names.
 
         :param str interface_name: ``package/name``
-        :returns: list of str, their names; empty for an interface that is not there
+        :returns: list of str, their names; empty for an interface that does not exist
 
         >>> SpecIndex().providers_of('a_package/RGBCamera')
         []
@@ -191,14 +191,9 @@ class SpecIndex:
     def add_semantic_interface(self, semantic_interface: SemanticCapabilityInterface,
                                file_path: str, package_name: str) -> None:
         """
-        Add a semantic interface, whose name becomes ``package/name``.
+        Add a semantic interface. Parameters and errors are those of `add_interface`.
 
-        :param semantic_interface: `SemanticCapabilityInterface`; left as it is if it is refused
-        :param str file_path: where it was read from
-        :param str package_name: the package that exports it
-        :raises InvalidSpec: if it has the name of another package already
-        :raises DuplicateNameException: if the name is taken
-        :raises InterfaceNameNotFoundException: if the interface that it redefines is not there; a
+        :raises InterfaceNameNotFoundException: if the interface that it redefines does not exist; a
             semantic interface cannot be redefined
         """
         name = self._free_name(semantic_interface, file_path, package_name)
@@ -211,15 +206,10 @@ class SpecIndex:
     def add_provider(self, provider: CapabilityProvider, file_path: str,
                      package_name: str) -> None:
         """
-        Add a provider, whose name becomes ``package/name``.
+        Add a provider. Parameters and errors are those of `add_interface`.
 
-        :param provider: `CapabilityProvider`; left as it is if it is refused
-        :param str file_path: where it was read from
-        :param str package_name: the package that exports it
-        :raises InvalidSpec: if it has the name of another package already
-        :raises DuplicateNameException: if the name is taken
-        :raises InterfaceNameNotFoundException: if neither an interface nor a semantic interface of
-            the name that it implements is there
+        :raises InterfaceNameNotFoundException: if neither an interface nor a semantic interface has
+            the name that it implements
         """
         name = self._free_name(provider, file_path, package_name)
         implemented = provider.implements
@@ -233,7 +223,7 @@ class SpecIndex:
 
     def remove_interface(self, name: str) -> None:
         """
-        Take an interface out. What redefines or implements it stays.
+        Remove an interface. What redefines or implements it stays.
 
         :param str name: ``package/name``
         :raises KeyError: if no interface has this name
@@ -241,21 +231,11 @@ class SpecIndex:
         del self._interfaces[name]
 
     def remove_semantic_interface(self, name: str) -> None:
-        """
-        Take a semantic interface out. What implements it stays.
-
-        :param str name: ``package/name``
-        :raises KeyError: if no semantic interface has this name
-        """
+        """Remove a semantic interface, as `remove_interface` does an interface."""
         del self._semantic_interfaces[name]
 
     def remove_provider(self, name: str) -> None:
-        """
-        Take a provider out.
-
-        :param str name: ``package/name``
-        :raises KeyError: if no provider has this name
-        """
+        """Remove a provider, as `remove_interface` does an interface."""
         del self._providers[name]
         del self._providers_of[self._implemented.pop(name)][name]
 

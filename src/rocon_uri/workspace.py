@@ -41,7 +41,7 @@ class Workspace(NamedTuple):
     capabilities: Dict[str, Capability]
     #: the providers among them by name
     providers: Dict[str, CapabilityProvider]
-    #: the rapps by name, with what they inherit; those whose ancestors are at fault are left out
+    #: the rapps by name, with what they inherit; those with faulty ancestors are left out
     rapps: Dict[str, Rapp]
     #: all rapps that can be read by name, with what their own files say
     own_rapps: Dict[str, Rapp]

@@ -158,7 +158,7 @@ class SpecLoader(Generic[Spec]):
         :param str file_path: where the file is
         :returns: the spec
         :raises InvalidSpec: as `from_dict`, or if the text is not YAML
-        :raises OSError: if the file is not there, or cannot be read
+        :raises OSError: if the file does not exist or cannot be read
         """
         return self._load(read_file(file_path), str(file_path))
 

@@ -29,7 +29,7 @@ class ReasonKind(Enum):
 
     #: it is virtual, a parent of others only
     VIRTUAL = 'virtual'
-    #: the robot is no platform for it, or its compatibility string cannot be read
+    #: its compatibility string does not match the robot, or is not legal
     PLATFORM = 'platform'
     #: its own launch file cannot be started
     LAUNCH = 'launch'

@@ -79,7 +79,7 @@ def _prepare_streams() -> None:
     for name in ('stdout', 'stderr'):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, 'w'))       # noqa: SIM115, open until the end
-    # Python 3.8 buffers all of stderr where it is no terminal: errors would come after the output,
+    # Python 3.8 buffers all of stderr if it is not a terminal: errors would come after the output,
     # and be lost where it cannot be written.
     if isinstance(sys.stderr, io.TextIOWrapper):
         sys.stderr.reconfigure(line_buffering=True)

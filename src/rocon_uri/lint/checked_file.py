@@ -105,7 +105,7 @@ class CheckedFile(Reading):
         """
         A file that this one names has to be there, in one of the folders, inside the package.
 
-        :returns: str, its path; None if it is not there
+        :returns: str, its path; None if it does not exist
         """
         paths = [os.path.normpath(os.path.join(folder, name)) for folder in folders]
         inside = [path for path in paths if is_inside(path, self.package_folder)]

@@ -155,7 +155,7 @@ def package_folders(path: str) -> Iterator[str]:
     """
     The folders of packages below a path, itself included, in the order of their names.
 
-    :param str path: the folder to begin at; one that is not there has no packages
+    :param str path: the folder to begin at; one that does not exist has no packages
     :returns: iterator of str, absolute paths
 
     >>> [os.path.basename(folder) for folder in package_folders('test/workspace/src')][:2]

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 __all__ = ['did_you_mean', 'near_misses', 'printable', 'quoted', 'quoted_path', 'shown']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
-_NEAR_LENGTH = 64       # characters: a longer text is no typing error, and would take long
+_NEAR_LENGTH = 64       # characters: a longer text is not a typing error, and would take long
 
 
 def quoted(text: str) -> str:
