@@ -318,7 +318,7 @@ def test_the_command_says_what_is_outside_the_package(workspace):
     ('application_framework:\n- 1.0', '2:3', 'application_framework 1.0 is not text'),
     ('name: [bob]', '1:1', "'name' is not a field with registered values"),
     ('hardware_platform: ' + '[' * 200, '1:119', 'nested deeper than 100'),
-    ('hardware_platform: &a\n  robot: *a', '2:10', "alias '*a' is within"),
+    ('hardware_platform: &a\n  robot: *a', '2:10', "alias '*a' is inside"),
 ])
 def test_rules_with_a_value_that_is_none(workspace, rules, place, problem):
     add_package(workspace, 'bad', {'rules': 'rules.yaml'}, rules_yaml=rules)

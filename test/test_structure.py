@@ -42,7 +42,7 @@ RUNTIME = {'server', 'client', 'service_discovery', 'launch_manager'}
 KNOWN_CIRCLES: Set[Tuple[str, ...]] = set()
 KNOWN_ARROWS: Set[Tuple[str, str]] = set()
 
-ANY_AT_MOST = 60
+ANY_AT_MOST = 48
 
 
 def imported(module: str) -> Iterator[str]:
