@@ -172,11 +172,6 @@ class Graph(Roster):
             self._current[successor.interface] = successor
         self._advance()
 
-    def stop_all(self) -> None:
-        """Stop everything, in order."""
-        self._retire(list(self._current.values()))
-        self._advance()
-
     def end(self) -> None:
         """
         The server ends. Nothing is started any more, and nothing is to be stopped by an action:

@@ -145,11 +145,6 @@ class CapabilityInstance:
         return sum(self.bonds.values())
 
     @property
-    def has_process(self) -> bool:
-        """Does its roslaunch exist, whatever it is doing? (bool)"""
-        return self.pid is not None and self._state is not State.TERMINATED
-
-    @property
     def is_up(self) -> bool:
         """Is it listed as running, and may what depends on it start? (bool)"""
         return self.pid is not None and self._state in (
