@@ -5,6 +5,7 @@ import itertools
 import re
 
 import pytest
+from at_once import at_once
 
 from rocon_uri import RoconURIValueError, Vocabulary, is_compatible, parse, relation
 from rocon_uri.grammar import EBNF, VOCABULARY_FIELDS, ebnf
@@ -244,3 +245,9 @@ def test_a_long_rule_of_the_grammar_goes_on_below_its_equals_sign():
     assert text.split('\n')[-6:] == [
         'platform    = "*" | "%s"' % long[0], '            | "%s"' % long[1],
         '            | "%s" ;' % long[2], 'framework   = "*" ;', 'system      = "*" ;', '']
+
+
+def test_threads_that_open_one_vocabulary_get_one_open_vocabulary():
+    for _ in range(30):
+        ours = Vocabulary({'hardware_platform': ['bender']})
+        assert len(set(map(id, at_once(ours.opened, threads=8)))) == 1
