@@ -45,7 +45,7 @@ def test_the_status_is_there_before_anybody_asks(server):
      ["'robot/Nav' instead", "'robot/Base' instead"]),
     ({'missing_default_provider_is_an_error': True}, ["no default provider for 'robot/Two'"]),
     ({'on_dependency_lost': 'stpo'}, ["'stpo', expected stop or keep (did you mean 'stop'?)"]),
-    ({'nodelet_manager_name': 'has blanks/!'}, ["'has blanks/!', which is no name of a node"]),
+    ({'nodelet_manager_name': 'has blanks/!'}, ["'has blanks/!', which is not a legal node name"]),
     ({'defaults': 'robot/base', 'on_nodelet_manager_lost': 1}, ['~on_nodelet_manager_lost is']),
 ])
 def test_a_bad_configuration_ends_it(robot, parameters, lines):

@@ -1,4 +1,4 @@
-"""What `capabilities.graph.Graph` answers: results, refusals, and what is to be done."""
+"""What `capabilities.graph.Graph` answers: results, refusals and actions."""
 from __future__ import annotations
 
 from enum import Enum
@@ -12,7 +12,7 @@ ENDS = 'the capability server ends'
 
 
 class RefusedRequest(RuntimeError):
-    """A request that cannot be fulfilled; its text is for who asked."""
+    """A request that cannot be fulfilled; its text is for the client."""
 
 
 class StartResult(Enum):
@@ -25,7 +25,7 @@ class StartResult(Enum):
 
 
 class Do(Enum):
-    """What is to be done with an instance."""
+    """What the runtime has to do with an instance."""
 
     #: make its process, and tell `Graph.launched` or `Graph.launch_failed`
     LAUNCH = 'launch'
@@ -34,12 +34,12 @@ class Do(Enum):
     TELL_LAUNCHED = 'tell launched'
     TELL_STOPPED = 'tell stopped'
     TELL_TERMINATED = 'tell terminated'
-    #: answer those who wait until it is gone
+    #: answer the requests that wait for its end
     GONE = 'gone'
 
 
 class Action(NamedTuple):
-    """One thing to be done."""
+    """Something to do with an instance."""
 
     do: Do
     instance: CapabilityInstance

@@ -1,4 +1,4 @@
-"""Who is told what happens in `capabilities.runtime.Runtime`; only for who checks types."""
+"""The type of the listener of `capabilities.runtime.Runtime`; only for type checkers."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Callable, List
@@ -9,17 +9,17 @@ if TYPE_CHECKING:
     from capabilities.status import StatusEntry
 
     class Audience(Protocol):
-        """Is told under the lock of the runtime, and therefore must not wait for anything."""
+        """Its methods are called under the lock of the runtime, so they must not wait."""
 
         def told(self, event: str, capability: str, provider: str, pid: int) -> None:
             """Something was ``launched``, is being ``stopped``, or has ``terminated``."""
 
         def status(self, entries: List[StatusEntry]) -> None:
-            """The status is now this."""
+            """The status has become this."""
 
         def error(self, text: str) -> None:
-            """Something is to be logged as an error."""
+            """Log an error."""
 
         @property
         def must_end(self) -> Callable[[int], None]:
-            """To be called when the server is to end, with the exit status."""
+            """Called with the exit status when the server has to end."""

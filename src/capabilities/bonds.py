@@ -11,8 +11,8 @@ import rospy
 
 __all__ = ['Bonds']
 
-#: the heartbeats that may wait for being sent to one client; all bonds share the topic, and those
-#: that beat at the same time would push each other out of a shorter queue
+#: how many heartbeats to one client may be queued; all bonds share the topic, and in a shorter
+#: queue heartbeats of the same moment would push each other out
 _QUEUE_SIZE = 1000
 
 
@@ -22,7 +22,7 @@ class Bonds:
 
     :param str topic: the topic of all of them
     :param on_broken: called with the id of a bond that was broken, fell silent or never formed
-    :param later: called with what is to be done later, in another thread
+    :param later: called with a function that another thread is to call
     """
 
     def __init__(self, topic: str, on_broken: Callable[[str], None],
@@ -45,7 +45,7 @@ class Bonds:
         """Begin a bond of a new id."""
         bond = bondpy.Bond(self._topic, bond_id, lambda: self._broken(bond_id),
                            lambda: self._formed(bond_id))
-        self._publisher.impl.set_queue_size(_QUEUE_SIZE)    # which the bond has set to 1
+        self._publisher.impl.set_queue_size(_QUEUE_SIZE)    # the bond has set it to 1
         with self._lock:
             self._bonds[bond_id] = bond
         bond.start()
@@ -60,14 +60,14 @@ class Bonds:
             bond.shutdown()
 
     def _heard(self, status: Status) -> None:
-        """A heartbeat, or a notice of death, goes to the bond that it is of."""
+        """Pass a heartbeat or a notice of death to its bond."""
         with self._lock:
             bond = self._bonds.get(status.id)
         if bond is not None:
             bond._on_bond_status(status)
 
     def _formed(self, bond_id: str) -> None:
-        """A client has answered. bondpy would notice its death only after its next heartbeat."""
+        """Watch a client from its first answer; bondpy would wait for a second heartbeat."""
         with self._lock:
             bond = self._bonds.get(bond_id)
         if bond is not None:
@@ -80,4 +80,4 @@ class Bonds:
             bond = self._bonds.pop(bond_id, None)
         self._on_broken(bond_id)
         if bond is not None:
-            self._later(bond.shutdown)      # not in here: bondpy calls this in the midst of it
+            self._later(bond.shutdown)      # not now: the bond is in the middle of this call

@@ -37,13 +37,13 @@ class Catalogue(NamedTuple):
     """
 
     spec_index: SpecIndex
-    #: the default provider by the name of the interface; those that have none are not in it
+    #: default providers by interface name; interfaces without a default are left out
     defaults: Dict[str, str]
-    #: the text of the file of each spec, by its name
+    #: the text of each spec file, by the name of the spec
     contents: Dict[str, str]
 
     def redefines(self, capability: str) -> Optional[str]:
-        """The interface that a semantic interface redefines; None for what is none."""
+        """The interface that a semantic interface redefines; None for any other name."""
         spec = self.spec_index.semantic_interfaces.get(capability)
         return None if spec is None else spec.redefines
 
@@ -89,7 +89,7 @@ def load_specs(package_paths: Iterable[str], parameters: Parameters) -> SpecInde
     """
     The specs that packages export, but for those that are filtered out.
 
-    What is wrong with a spec is logged; it costs only that one and what stands on it.
+    A faulty spec is logged and left out, and so are the specs that need it.
 
     :returns: `SpecIndex`
     """
@@ -103,7 +103,7 @@ def load_specs(package_paths: Iterable[str], parameters: Parameters) -> SpecInde
     spec_index, errors = spec_index_from_spec_file_index(
         {package: files for package, files in spec_files.items() if package not in left_out})
     for error in errors:
-        # That a provider of a package that is left out has no interface is what was asked for.
+        # If the package of its interface is filtered out, a provider is left out on purpose.
         is_expected = (isinstance(error, InterfaceNameNotFoundException)
                        and error.interface.partition('/')[0] in left_out)
         _logger.log(logging.DEBUG if is_expected else logging.ERROR, 'spec left out: %s', error)
@@ -157,7 +157,7 @@ def default_providers(spec_index: SpecIndex, parameters: Parameters) -> Dict[str
 
 
 def _warn_of_unknown(defaults: Dict[str, str], interfaces: Iterable[str]) -> None:
-    """Warn of defaults for what is not there."""
+    """Warn of defaults for interfaces that do not exist."""
     known = set(interfaces)
     for name in defaults:
         if name not in known:
@@ -171,7 +171,7 @@ def _passes(name: str, whitelist: List[str], blacklist: List[str]) -> bool:
 
 
 def _filter(spec_index: SpecIndex, parameters: Parameters) -> None:
-    """Take out what the filters do not let pass, and the providers of interfaces among that."""
+    """Remove the specs that do not pass the filters, and the providers of removed interfaces."""
     removed: Set[str] = set()
     for names, remove in (
             (spec_index.interface_names, spec_index.remove_interface),

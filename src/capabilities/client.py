@@ -1,5 +1,5 @@
 """
-The client of a capability server: what a program uses is there for as long as the program lives.
+The client of a capability server. The capabilities that a program uses run while it lives.
 
 ::
 
@@ -10,7 +10,7 @@ The client of a capability server: what a program uses is there for as long as t
     client.free_capability('std_capabilities/RGBDSensor')
 
 A client makes one bond with the server. When that breaks, because the program ends or dies, the
-server frees all that it used. All methods may be called in any thread.
+server frees all that the client used. All methods may be called in any thread.
 """
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class CannotEstablishBondException(Exception):
 
 class CapabilityNotRunningException(Exception):
     """
-    A capability is to be freed that does not run.
+    A capability was to be freed, but does not run.
 
     :param str interface: its name; the attribute has the same name
     """
@@ -70,7 +70,7 @@ class CapabilityNotRunningException(Exception):
 
 class CapabilityNotInUseException(Exception):
     """
-    A capability is to be freed that this client does not use.
+    A capability was to be freed, but this client does not use it.
 
     :param str interface: its name; the attribute has the same name
     """
@@ -82,15 +82,15 @@ class CapabilityNotInUseException(Exception):
 
 class CapabilitiesClient:
     """
-    A client of one server. It is not asked for anything until a method is called.
+    A client of one server. It contacts the server only when a method is called.
 
     :param str capability_server_node_name: the name of the server's node
     :param on_lost: called as ``on_lost(interface, text)``, in a thread of the client's, once for
         each capability that it used and that failed, or was stopped by somebody else; the text
         says why
-    :param bool strict: does `free_capability` raise what it otherwise only logs?
-    :param bool reconnect: is the bond made anew when it was broken and the server comes back? What
-        was used is not used again.
+    :param bool strict: let `free_capability` raise the errors that it otherwise only logs
+    :param bool reconnect: make the bond anew when it was broken and the server comes back; the
+        earlier uses are not repeated
 
     ``use_capability`` and the others take ``timeout`` in seconds, the longest to wait for each
     service; None waits for ever.
@@ -117,7 +117,7 @@ class CapabilitiesClient:
 
     @property
     def _used_capabilities(self) -> Set[str]:
-        """The names of what this client uses."""
+        """The names of the capabilities that this client uses."""
         with self._lock:
             return {name for name, uses in self._uses.items() if uses > 0}
 
@@ -148,7 +148,7 @@ class CapabilitiesClient:
 
     def establish_bond(self, timeout: Optional[float] = None) -> Optional[str]:
         """
-        Make a bond with the server. An earlier bond is broken, and what it used is freed.
+        Make a bond with the server. An earlier bond is broken, and its uses are freed.
 
         :param timeout: float, seconds to wait for the service, and again for the bond; None to
             wait for ever
@@ -248,12 +248,12 @@ class CapabilitiesClient:
             raise ServiceNotAvailableException(self._services[service].resolved_name)
 
     def _call(self, service: str, *arguments: object) -> rospy.Message:
-        """Call a service, by a proxy of this call's own: threads that share one mix up answers."""
+        """Call a service by a proxy for this call only: threads that share one mix up answers."""
         name = self._services[service].resolved_name
         return rospy.ServiceProxy(name, _SERVICES[service])(*arguments)
 
     def _break_bond(self) -> None:
-        """Break the bond on purpose; what it used is not lost, but freed."""
+        """Break the bond on purpose; its capabilities count as freed, not as lost."""
         with self._lock:
             bond, self._bond, self._bond_id = self._bond, None, None
             self._uses.clear()
@@ -263,7 +263,7 @@ class CapabilitiesClient:
             bond.shutdown()
 
     def _broken(self, bond_id: str) -> None:
-        """The bond was broken: by the server, by its end, or by whoever calls break_bond."""
+        """The bond was broken: by the server, by its end, or by a call of ``break_bond``."""
         with self._lock:
             if self._bond_id != bond_id:
                 return
@@ -286,7 +286,7 @@ class CapabilitiesClient:
 
 
 def _formed(bond: bondpy.Bond) -> None:
-    """The server has answered. bondpy would notice its end only after its next heartbeat."""
+    """Watch the server from its first answer; bondpy would wait for a second heartbeat."""
     with bond.lock:
         if bond.sm.getState().getName() == 'SM.Alive':
             bond.heartbeat_timer.reset()

@@ -1,18 +1,18 @@
 """
-Which capabilities run: those that somebody wants, and no other.
+Decides which capabilities run: those that somebody wants, and no other.
 
-A capability is wanted by an explicit start, by a use of a bond, and by what depends on it; what is
-stopping needs what it depends on until it is gone. A `Graph` is told what was asked for and what
-happened, and says what is to be done, as `Action`. It knows neither ROS nor processes, has no
-thread and no lock: whoever calls it sees to it that one thing at a time is told, and carries out
-what `Graph.take_actions` gives, in its order, before the next thing is told.
+An explicit start, a use by a bond and a running dependent each want a capability. A capability that
+is stopping needs its dependencies until it is gone. Callers tell a `Graph` each request and each
+event, and it answers with `Action` objects. It knows neither ROS nor processes, and has no thread
+and no lock: callers tell it one thing at a time, and carry out the actions of `Graph.take_actions`,
+in their order, before they tell it the next.
 
-- What a capability depends on starts before it. Order and nothing else is kept: as soon as the
-  processes of all its dependencies exist a capability is launched.
-- What depends on a capability ends before it does; what is independent ends at the same time.
-- A process that ends unasked is not started again. Every want of it ends, and (unless dependents
-  are to be kept) what depends on it is stopped.
-- While an instance stops, a use of the capability makes another, which waits until it is gone.
+- Dependencies start first. A capability is launched as soon as the processes of all its
+  dependencies exist; nothing waits until their nodes are ready.
+- Dependents end before their dependencies; independent capabilities end at the same time.
+- A process that ends unasked is not started again. Its start and its uses end, and its dependents
+  are stopped (unless they are to be kept).
+- While an instance stops, a use of the capability makes a new one, which waits for that end.
 """
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Graph(Roster):
     What is wanted, and what runs.
 
     :param clock: called for the time, in seconds since 1970
-    :param bool keep_dependents: do dependents of what ended unasked go on, degraded?
+    :param bool keep_dependents: keep dependents of an instance that ended unasked, as degraded?
 
     >>> Graph(lambda: 0.0).instances
     []
@@ -51,7 +51,7 @@ class Graph(Roster):
         return self._ends
 
     def take_actions(self) -> List[Action]:
-        """What is to be done since this was last called: a list, in the order to do it in."""
+        """The actions since the last call: a list, in the order to carry them out."""
         actions, self._actions = self._actions, []
         return actions
 
@@ -62,8 +62,8 @@ class Graph(Roster):
         Somebody starts a capability explicitly.
 
         :param str interface: the name that its instance has
-        :param planned: the instances that it takes, dependencies first. Those of which there are
-            current ones already are left out.
+        :param planned: the instances that the start takes, dependencies first; those whose
+            capability has a current instance already are ignored
         :raises RefusedRequest: if the server ends
         """
         self._refuse_if_it_ends()
@@ -97,10 +97,10 @@ class Graph(Roster):
 
     def free(self, name: str, bond_id: str) -> List[CapabilityInstance]:
         """
-        A client uses a capability no more.
+        A client frees one use of a capability.
 
         :param str name: of the capability, or of what it redefines
-        :returns: the instances that are stopped for that, a list
+        :returns: the instances that this stops, a list
         :raises RefusedRequest: if the bond has no use of it
         """
         candidates = [instance for instance in self._current.values()
@@ -137,7 +137,7 @@ class Graph(Roster):
         return [self._stopping[name] for name in ending if name in self._stopping]
 
     def bond_formed(self, bond_id: str) -> None:
-        """There is a new bond, whose id uses may name from now on."""
+        """Accept uses by a new bond from now on."""
         self._bonds.add(bond_id)
 
     def check_bond(self, bond_id: str) -> None:
@@ -151,7 +151,7 @@ class Graph(Roster):
                 'Invalid bond_id given to ~use_capability: %s' % quoted(bond_id))
 
     def bond_broken(self, bond_id: str) -> None:
-        """A bond is no more: all its uses end."""
+        """A bond has ended, and all its uses end."""
         self._bonds.discard(bond_id)
         for instance in self._current.values():
             instance.drop_wants(bond_id)
@@ -174,8 +174,8 @@ class Graph(Roster):
 
     def end(self) -> None:
         """
-        The server ends. Nothing is started any more, and nothing is to be stopped by an action:
-        who calls this ends all processes at once.
+        Start nothing any more, since the server ends. No action stops anything: the caller ends all
+        processes at once.
         """
         self._ends = True
         self._retire(list(self._current.values()))
@@ -202,7 +202,7 @@ class Graph(Roster):
 
     def noted(self, instance: CapabilityInstance, about: str, text: str,
               is_degraded: bool) -> None:
-        """Something in an instance is to be said about a node, and may degrade it."""
+        """Note a text about a node or dependency of an instance, which may degrade the instance."""
         instance.notes[about] = text
         if is_degraded and instance.is_up and instance.state is not State.DEGRADED:
             instance.degraded()
@@ -247,7 +247,7 @@ class Graph(Roster):
             raise RefusedRequest(ENDS)
 
     def _retire(self, instances: Sequence[CapabilityInstance], text: str = '') -> None:
-        """End every want of current instances; with a text they are remembered as failed."""
+        """End all starts and uses of current instances; with a text, remember them as failed."""
         if text:
             for instance in instances:
                 instance.failure = self._failure(instance, NO_EXIT_CODE, text)
@@ -266,7 +266,7 @@ class Graph(Roster):
                 self._stopping[instance.interface] = instance
 
     def _gone(self, instance: CapabilityInstance) -> None:
-        """An instance is no more."""
+        """Note that an instance has gone."""
         instance.ended()
         if instance.failure is not None and instance.interface not in self._current:
             self.failures[instance.interface] = instance.failure._replace(since=self._clock())
@@ -275,7 +275,7 @@ class Graph(Roster):
         self._act(Do.GONE, instance)
 
     def _advance(self) -> None:
-        """Stop what nobody wants, end what nothing needs any more, launch what can be."""
+        """Stop what nobody wants, end what nothing needs any more, launch what is ready."""
         self._retire(self._unwanted())
         if self._ends:
             return

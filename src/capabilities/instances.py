@@ -38,12 +38,12 @@ class State(str, Enum):
     True
     """
 
-    #: what it depends on, or the process of its predecessor, is not ready for it
+    #: it waits for a dependency to have a process, or for its predecessor to end
     WAITING = 'waiting'
-    #: its roslaunch exists, and has not said that it started its nodes
+    #: its roslaunch exists, and has not yet reported that it started the nodes
     LAUNCHING = 'launching'
     RUNNING = 'running'
-    #: a node of it, or something that it depends on, has died
+    #: one of its nodes or dependencies has died
     DEGRADED = 'degraded'
     #: it is to end, or is ending
     STOPPING = 'stopping'
@@ -62,7 +62,7 @@ class Failure(NamedTuple):
     """
 
     interface: str
-    #: '' where it did not come to choosing one
+    #: '' if none had been chosen
     provider: str
     #: was it started explicitly?
     started: bool
@@ -72,7 +72,7 @@ class Failure(NamedTuple):
     dependents: Tuple[str, ...]
     #: when it failed, in seconds since 1970
     since: float
-    #: `NO_EXIT_CODE` where no process of it ended by itself
+    #: `NO_EXIT_CODE` if no process of its own ended
     exit_code: int
     text: str
 
@@ -97,8 +97,8 @@ class CapabilityInstance:
     - ``started`` (bool): was it started explicitly?
     - ``bonds`` (dict from bond id to int): its uses; ``asked_as`` (dict from bond id and name to
       int): how many of them were asked for by the name of the interface that is redefined
-    - ``dependencies`` (list of `CapabilityInstance`): what it stands on
-    - ``notes`` (dict of str): what is to be said about it, by node or capability
+    - ``dependencies`` (list of `CapabilityInstance`): the instances that it depends on
+    - ``notes`` (dict of str): texts for the status, by node or capability
     - ``stop_sent`` (bool): has its process been told to end?
     - ``failure`` (`Failure` or None): what to remember when it is gone
     """
@@ -158,7 +158,7 @@ class CapabilityInstance:
             self.asked_as[key] = self.asked_as.get(key, 0) + 1
 
     def remove_use(self, bond_id: str, asked_as: str) -> None:
-        """Take a use by a bond away, if it can one that was asked for by this name."""
+        """Remove a use by a bond, preferably one that was asked for by this name."""
         key = bond_id, asked_as
         self.bonds[bond_id] -= 1
         by_other_names = sum(count for (bond, _), count in self.asked_as.items() if bond == bond_id)

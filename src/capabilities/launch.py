@@ -14,7 +14,7 @@ from capabilities.processes import (
 __all__ = ['Launch', 'Report', 'STOP_SECONDS']
 
 STOP_SECONDS = 15.0 + 2.0 + 5.0     # what roslaunch gives its nodes, and 5 s for itself
-_KILL_SECONDS = 0.3                 # how long the end of a launch waits for what it left
+_KILL_SECONDS = 0.3                 # how long the end of a launch waits while leftovers are killed
 _LINE_LIMIT = 64 << 10              # bytes of a line of output that are passed on
 _HERE = os.path.dirname(os.path.abspath(__file__))
 _LOG = logging.getLogger('rosout')  # rospy's own once a node is initialised
@@ -60,7 +60,7 @@ class Launch:
     :param str file: the launch file; None runs the placeholder
     :param arguments: ``name:=value`` for the launch file
     :param bool screen: show the output of all nodes
-    :param bool quiet: read the output and write it to stdout; else the process writes there itself
+    :param bool quiet: read the output and write it to stdout; by default the process writes there
     :param dict environment: of the process, without a mark
     :param ServerRun run: the mark that its processes carry; None for none
     :param str name: the id of the launch within that run
@@ -151,7 +151,7 @@ class Launch:
         return self._ended.wait(timeout)
 
     def _instruct(self, request: Dict[str, object]) -> None:
-        """Write what the runner has to know to its standard input."""
+        """Write the runner's instructions to its standard input."""
         assert self._process.stdin is not None
         try:
             self._process.stdin.write(json.dumps(request).encode())
@@ -161,7 +161,7 @@ class Launch:
 
     def _watch(self, reported: Callable[[Report], None], ended: Callable[[int, str], None]
                ) -> None:
-        """The thread: reports, the end, what was left over, and the word that all is gone."""
+        """The thread: pass on reports, wait for the end, kill leftovers, tell that all is gone."""
         if self._process.stdout is not None:
             output = threading.Thread(target=_pass_on, args=(self._process.stdout,), daemon=True)
             output.start()
@@ -211,7 +211,7 @@ class Launch:
 
 
 def _call(function: Callable[..., None], *arguments: object) -> None:
-    """Call what others gave; an error of theirs is logged and does not end the thread."""
+    """Call a callback; an error in it is logged and does not end the thread."""
     try:
         function(*arguments)
     except Exception:
@@ -219,7 +219,7 @@ def _call(function: Callable[..., None], *arguments: object) -> None:
 
 
 def _pass_on(output: IO[bytes]) -> None:
-    """Write to stdout what a process writes, line by line, until it ends."""
+    """Copy the output of a process to stdout, line by line, until it ends."""
     with output:
         while True:
             line = output.readline(_LINE_LIMIT)
@@ -231,5 +231,5 @@ def _pass_on(output: IO[bytes]) -> None:
             try:
                 sys.stdout.write(line.decode(errors='replace').rstrip('\n') + '\n')
                 sys.stdout.flush()
-            except (OSError, ValueError):       # nobody reads it: it is read on all the same
+            except (OSError, ValueError):   # stdout is closed; read on, or the process would block
                 pass

@@ -1,9 +1,9 @@
 """
 The launch manager: starts the launch files of capability providers, and ends them.
 
-Each runs in a process of its own (`capabilities.launch`). The nodelet manager is one of them,
-and a provider without a launch file has a placeholder that does nothing. Who is given as
-listener is told what happens; nothing is published here, and rospy is not needed.
+Each launch file runs in a process of its own (`capabilities.launch`), and so does the nodelet
+manager. For a provider without a launch file, a placeholder runs that does nothing. A listener is
+told what happens; nothing is published here, and rospy is not needed.
 """
 import itertools
 import logging
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from capabilities.specs.provider import CapabilityProvider
 
     class LaunchListener(Protocol):
-        """Who is told what happens to the launches, in threads of theirs."""
+        """The listener of a launch manager; its methods are called in the threads of launches."""
 
         def launch_reported(self, pid: int, report: Report) -> None:
             """A node died or was restarted, or the launch file has started its nodes."""
@@ -62,11 +62,11 @@ class LaunchManager:
     """
     Starts launch files, knows them by the id of their process, and ends them.
 
-    :param bool quiet: read the output of the launch files and write it to stdout; else they write
-        to the stdout of this process themselves
+    :param bool quiet: read the output of the launch files and write it to stdout; by default they
+        write to the stdout of this process themselves
     :param bool screen: show the output of all nodes
-    :param str nodelet_manager_name: the base name of the nodelet manager; by default that of this
-        node and ``_nodelet_manager``
+    :param str nodelet_manager_name: the base name of the nodelet manager; by default the name
+        of this node and ``_nodelet_manager``
     :param listener: is told what happens: methods ``launch_reported(pid, report)``,
         ``launch_ended(pid, exit_code, text)`` and ``nodelet_manager_ended(pid, exit_code, text)``
     :param ServerRun run: marks all processes, and has a watcher end them if this process dies;
@@ -103,7 +103,7 @@ class LaunchManager:
 
     @property
     def nodelet_manager_name(self) -> str:
-        """The name of the nodelet manager with its namespace, also where none is started."""
+        """The name of the nodelet manager with its namespace, even if none is started."""
         return self.__manager_name
 
     @property
@@ -124,7 +124,7 @@ class LaunchManager:
     def run_capability_provider(self, provider: 'CapabilityProvider', provider_path: str,
                                 on_pid: Optional[Callable[[int], None]] = None) -> int:
         """
-        Start what runs a provider.
+        Start the launch file of a provider, or the placeholder.
 
         :param provider: the spec of the provider
         :param str provider_path: the path of the file of the spec
@@ -171,7 +171,7 @@ class LaunchManager:
         """
         Ask a launch to stop; the listener is told when it has.
 
-        Its nodes get the time that roslaunch gives them. What is left 5 s after that is killed.
+        Its nodes get the time that roslaunch gives them. Leftovers are killed 5 s after that.
 
         :param int pid: the id of its process
         :raises RuntimeError: if there is no such launch
@@ -244,7 +244,7 @@ class LaunchManager:
 
     def handle_capability_events(self, msg: object) -> None:
         """
-        Do nothing: launches are known to have ended by their processes, not by messages.
+        Do nothing: the end of a launch is known from its process, not from messages.
 
         :param msg: a ``capabilities/CapabilityEvent``
         """
@@ -340,7 +340,7 @@ def _joined(namespace: str, name: str) -> str:
 
 
 def _nodelet_is_installed() -> bool:
-    """Is there a nodelet manager that could be started? Warns where there is none."""
+    """Is package nodelet installed? Logs a warning if it is not."""
     try:
         import roslib.packages
         if roslib.packages.find_node('nodelet', 'nodelet'):

@@ -1,4 +1,4 @@
-"""Who used a capability is told that it has failed, or was stopped by somebody else."""
+"""Tells a client that a capability it used has failed, or was stopped by somebody else."""
 from __future__ import annotations
 
 import logging
@@ -19,9 +19,9 @@ _logger = logging.getLogger('rosout.capabilities')
 class _Use(NamedTuple):
     """A capability that is used."""
 
-    #: the name by which the status has it: its own, or that of a semantic interface
+    #: its name in the status: the name that was asked for, or that of a semantic interface
     entry: str
-    #: of the first status that had it; earlier ones say nothing of it
+    #: stamp of the first status that listed it; earlier ones are ignored
     stamp: rospy.Time
 
 
@@ -58,9 +58,9 @@ class LostWatch:
 
     def _entry(self, status: CapabilityStatuses, interface: str, provider: Optional[str]) -> str:
         """
-        The name by which a status has what was asked for by this name.
+        The name under which a status lists a capability that was asked for by this name.
 
-        A provider of a semantic interface is entered under that one's name.
+        With a provider of a semantic interface, that is the name of the semantic interface.
         """
         providers = {entry.capability: entry.provider for entry in status.capabilities
                      if entry.state != 'failed'}
@@ -73,7 +73,7 @@ class LostWatch:
         return interface
 
     def freed(self, interface: str) -> None:
-        """The client uses it no more: whatever becomes of it, it is not lost."""
+        """The client has freed it, so it cannot be lost any more."""
         with self._lock:
             self._used.pop(interface, None)
 
@@ -91,7 +91,7 @@ class LostWatch:
             self._tell(interface, text)
 
     def status(self, status: CapabilityStatuses) -> None:
-        """The server has told what it has; messages may come late, and out of order."""
+        """Compare with a status of the server; messages may come late and out of order."""
         texts = {}
         for entry in status.capabilities:
             if entry.state != 'failed':

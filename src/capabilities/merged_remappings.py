@@ -1,4 +1,4 @@
-"""What the ROS names of a capability that runs are called, through all that it depends on."""
+"""The remappings of a running capability, merged with those of all that it depends on."""
 from __future__ import annotations
 
 from typing import Dict, Iterable, List, Set, Tuple
@@ -30,10 +30,10 @@ def with_dependencies(instance: CapabilityInstance) -> List[CapabilityInstance]:
 
 def merged_remappings(specs: Iterable[RemappingSpec]) -> Dict[str, Dict[str, str]]:
     """
-    The remappings of several specs as one.
+    Merge the remappings of several specs.
 
-    A name that is remapped to one that a spec before it remaps gets the name of that, and the
-    name between is left out.
+    If a name is remapped to a name that an earlier spec remaps, it gets the final name, and the
+    intermediate name is left out.
 
     :param specs: iterable of `RemappingSpec`, dependencies first
     :returns: dict from ``'topics'``, ``'services'``, ``'actions'`` and ``'parameters'`` to dicts
@@ -52,7 +52,7 @@ def merged_remappings(specs: Iterable[RemappingSpec]) -> Dict[str, Dict[str, str
             below = merged[kind]
             resolved = {name: below.get(new_name, new_name)
                         for name, new_name in new_names.items()}
-            # They stay until the end: another spec may remap to them, too.
+            # Intermediate names go at the end: another spec may remap to them, too.
             between[kind].update(below.keys() & set(new_names.values()))
             between[kind].difference_update(new_names)
             below.update(resolved)

@@ -1,4 +1,4 @@
-"""What the capability server knows, as messages. Their stamps are of the wall clock."""
+"""The messages of the capability server. Their stamps are wall-clock times."""
 from __future__ import annotations
 
 from typing import Iterable, List

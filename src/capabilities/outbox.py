@@ -1,4 +1,4 @@
-"""A thread that does in order what must not be waited for: publishing and the like."""
+"""A thread that calls functions in order, so that nobody waits for them, such as publishing."""
 from __future__ import annotations
 
 import logging
@@ -13,7 +13,7 @@ _logger = logging.getLogger('rosout.capabilities')
 
 class Outbox:
     """
-    Does what it is given, one after the other, in a thread of its own.
+    Calls functions one after the other, in a thread of its own.
 
     >>> outbox = Outbox()
     >>> outbox.put(lambda: print('done'))
@@ -27,11 +27,11 @@ class Outbox:
         self._thread.start()
 
     def put(self, do: Callable[[], object]) -> None:
-        """Have something done; returns at once."""
+        """Have a function called; returns at once."""
         self._queue.put(do)
 
     def close(self, timeout: float) -> None:
-        """Do nothing after what was put; wait for that, so many seconds at most."""
+        """Wait for the functions put so far, for so many seconds at most; call no others."""
         self._queue.put(None)
         self._thread.join(timeout)
 
@@ -39,5 +39,5 @@ class Outbox:
         for do in iter(self._queue.get, None):
             try:
                 do()
-            except Exception as error:      # of one message; the others are to be sent
+            except Exception as error:      # one message failed; send the others
                 _logger.debug('not sent: %s', error)

@@ -9,7 +9,7 @@ from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 __all__ = ['InvalidConfiguration', 'Parameters', 'read_parameters']
 
-#: gives the value of a parameter by its name, or what is to stand in its place
+#: gets a parameter by its name, or else the given default
 Get = Callable[[str, object], object]
 
 _logger = logging.getLogger('rosout.capabilities')
@@ -29,7 +29,7 @@ class InvalidConfiguration(Exception):
 
 class Parameters(NamedTuple):
     """
-    What the server was told by its private parameters.
+    The private parameters of the server.
 
     >>> read_parameters(lambda name, default: default).autostart
     []
@@ -50,11 +50,11 @@ class Parameters(NamedTuple):
     debug: bool
     #: the capabilities to start
     autostart: List[str]
-    #: do dependents of what ended go on, instead of being stopped?
+    #: keep the dependents of a capability that ended unasked, instead of stopping them?
     keep_dependents: bool
-    #: does the server end when it loses its nodelet manager, instead of starting it again?
+    #: end the server when the nodelet manager ends, instead of starting it again?
     ends_without_nodelet_manager: bool
-    #: is there to be a nodelet manager?
+    #: start a nodelet manager?
     nodelet_manager: bool
 
 
@@ -67,7 +67,7 @@ def read_parameters(get: Get, screen: bool = False) -> Parameters:
     :param get: called with the name of a private parameter (``~whitelist``) and a default
     :param bool screen: the default of ``~use_screen``
     :returns: `Parameters`
-    :raises InvalidConfiguration: if a default, or what is to be done in a case, is not valid
+    :raises InvalidConfiguration: if a default, a choice or a node name is not valid
     """
     defaults, faults = _defaults(get('~defaults', None))
     keep_dependents, more_faults = _choice(get, '~on_dependency_lost', ('stop', 'keep'))
@@ -76,7 +76,7 @@ def read_parameters(get: Get, screen: bool = False) -> Parameters:
     name = get('~nodelet_manager_name', None)
     if name is not None and not (
             isinstance(name, str) and is_legal_resource_name(name.lstrip('/'))):
-        faults.append('parameter ~nodelet_manager_name is %s, which is no name of a node'
+        faults.append('parameter ~nodelet_manager_name is %s, which is not a legal node name'
                       % quoted(str(name)))
     if faults:
         raise InvalidConfiguration(faults)
@@ -96,7 +96,7 @@ def _names(get: Get, parameter: str) -> List[str]:
         return []
     if isinstance(value, list) and all(isinstance(name, str) for name in value):
         return value
-    _logger.error('parameter %s is not a list of names, and not used', parameter)
+    _logger.error('parameter %s is not a list of names, and is ignored', parameter)
     return []
 
 
@@ -105,7 +105,7 @@ def _flag(get: Get, parameter: str, default: bool) -> bool:
     value = get(parameter, default)
     if isinstance(value, bool):
         return value
-    _logger.error('parameter %s is neither true nor false, and taken as %s', parameter,
+    _logger.error('parameter %s is neither true nor false, and is taken as %s', parameter,
                   str(default).lower())
     return default
 

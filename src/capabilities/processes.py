@@ -1,10 +1,10 @@
 """
 Processes that belong to a run of the capability server: marked, found and ended.
 
-Whatever the server starts carries a mark in its environment, which children inherit. So what
-is left over can be found in ``/proc``, however often it forked and whoever its parent is now.
-Nothing but the standard library is imported: run by its path, with ``python3 -I -S``, this
-module is the watcher, a small process that outlives the server and ends what it left.
+All processes that the server starts carry a mark in their environment, which children inherit. So
+leftovers can be found in ``/proc``, however often they forked and whatever their parent is now.
+This module imports only the standard library. Run by its path, with ``python3 -I -S``, it is the
+watcher: a small process that outlives the server and ends its leftovers.
 """
 import json
 import os
@@ -38,7 +38,7 @@ class ServerRun(NamedTuple):
     @classmethod
     def new(cls, node_name: str, master_uri: str) -> 'ServerRun':
         """
-        The run of a server that is this process.
+        The run of the server in this process.
 
         :param str node_name: the resolved name of its node
         :param str master_uri: the URI of its master
@@ -51,7 +51,7 @@ class ServerRun(NamedTuple):
 
     def mark(self, launch: str) -> str:
         """
-        What the environment of one launch says.
+        The mark of one launch.
 
         :param str launch: an id of the launch, without blanks
         :returns: str, the value of the variable `MARK`
@@ -70,7 +70,7 @@ class ServerRun(NamedTuple):
 
 
 class _Process(NamedTuple):
-    """What /proc/PID/stat says of a process that has not ended."""
+    """The content of /proc/PID/stat for a process that has not ended."""
 
     parent: int
     group: int
@@ -114,9 +114,9 @@ Wanted = Callable[[Marked], bool]
 
 def find_marked(wanted: Wanted) -> Dict[int, Marked]:
     """
-    The processes of this user that carry a mark; this process is not among them.
+    The processes of this user that carry a mark, without this process.
 
-    :param wanted: called with a `Marked`, tells whether it is meant
+    :param wanted: called with a `Marked`; returns whether to include it
     :returns: dict of `Marked` by process id
 
     >>> find_marked(lambda process: process.server == '/nobody@http://localhost:1')
@@ -156,7 +156,7 @@ def _mark(environment: bytes) -> List[str]:
 
 def send(pid: int, number: int) -> None:
     """
-    Send a signal to a process, and to its group where it leads one.
+    Send a signal to a process, and to its group if it leads one.
 
     :param int pid: the process; nothing happens where it has ended
     :param int number: the signal
@@ -183,8 +183,8 @@ def _kill_all(found: Dict[int, Marked]) -> None:
     """
     Send SIGKILL to the groups of these processes.
 
-    Their groups hold nothing else, since each launch begins a session. What forked and exited
-    since the look at /proc is caught by its group.
+    Their groups contain nothing else, since each launch begins a session. The signal to a group
+    also reaches children that were forked after the look at /proc.
     """
     for process in found.values():
         try:
@@ -198,7 +198,7 @@ def _kill_all(found: Dict[int, Marked]) -> None:
 
 def kill_marked(wanted: Wanted, seconds: float = _UNKILLABLE) -> bool:
     """
-    Send SIGKILL to what carries a mark until nothing is found any more.
+    Send SIGKILL to marked processes until none is found any more.
 
     :param wanted: as of `find_marked`
     :param float seconds: how long to try
@@ -213,9 +213,9 @@ def kill_marked(wanted: Wanted, seconds: float = _UNKILLABLE) -> bool:
 def end_marked(wanted: Wanted, interrupt: Optional[float] = 5.0, terminate: float = 2.0,
                settle: float = 0.0) -> bool:
     """
-    End what carries a mark: SIGINT, SIGTERM, SIGKILL, each only if the one before did not do.
+    End marked processes: SIGINT, SIGTERM, SIGKILL, each only if the one before did not suffice.
 
-    SIGINT goes to those whose parent is not among them: a roslaunch passes it on to its nodes.
+    SIGINT goes to those whose parent is not one of them: a roslaunch passes it on to its nodes.
 
     :param wanted: as of `find_marked`
     :param float interrupt: seconds from SIGINT to SIGTERM; None sends no SIGINT
@@ -246,10 +246,10 @@ def end_marked(wanted: Wanted, interrupt: Optional[float] = 5.0, terminate: floa
 def _repeat(wanted: Wanted, seconds: float, action: Callable[[Dict[int, Marked]], None],
             settle: float = 0.0) -> bool:
     """
-    Do something with what is found, until nothing is or the time is over.
+    Do something with the processes found, until none is left or the time is over.
 
-    Nothing has to be found twice, and for ``settle`` seconds: a process that is just calling
-    exec shows no environment.
+    At least two looks in a row, over ``settle`` seconds, have to find none: a process that is
+    just calling exec shows no environment.
     """
     end = time.monotonic() + seconds
     empty_since: Optional[float] = None
@@ -270,10 +270,10 @@ def _repeat(wanted: Wanted, seconds: float, action: Callable[[Dict[int, Marked]]
 
 def end_leftovers(run: ServerRun, log: Callable[[str], None], wait: float = 8.0) -> int:
     """
-    End what earlier runs of a server left behind.
+    End the leftovers of earlier runs of a server.
 
-    A server of the same name that still lives has been thrown out by this one and ends what it
-    started itself, so it is given the time for that. Blocks for at most that time and 3 s.
+    If an earlier server of the same name still lives, this one has thrown it out, and it is ending
+    its own processes; it gets ``wait`` seconds for that. Blocks for at most that time and 3 s.
 
     :param ServerRun run: the run that begins
     :param log: called with a line for each process that is ended
@@ -328,12 +328,12 @@ def exit_text(returncode: int) -> str:
 
 class Watcher:
     """
-    A process that ends what carries the mark of a run as soon as the server is gone.
+    A process that ends all marked processes of a run as soon as the server is gone.
 
-    It hangs on a pipe that only the server holds open, so it notices any end. It is in a
+    It reads from a pipe that only the server holds open, so it notices any end. It is in a
     session of its own and ignores SIGINT and SIGTERM, so that a Ctrl-C does not take it along.
 
-    :param ServerRun run: what it ends
+    :param ServerRun run: the run whose processes it ends
     :raises OSError: if it cannot be started
     """
 
@@ -370,7 +370,7 @@ class Watcher:
 
 
 def _watch() -> None:
-    """Wait for the end of the pipe, then end what the server left."""
+    """Wait for the end of the pipe, then end the leftovers of the server."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     lines = sys.stdin.read().splitlines()

@@ -50,7 +50,7 @@ class Publications:
         self._outbox.put(lambda: self._events.publish(message))
 
     def status(self, entries: List[StatusEntry]) -> None:
-        """Publish the status, unless it has changed again before it comes to that."""
+        """Publish the status, unless a newer one replaces it first."""
         self._entries = entries
         self._outbox.put(self._publish_status)
 
@@ -59,11 +59,11 @@ class Publications:
         self._outbox.put(lambda: _logger.error('%s', text))
 
     def later(self, do: Callable[[], object]) -> None:
-        """Have something done by the thread that publishes."""
+        """Have a function called by the thread that publishes."""
         self._outbox.put(do)
 
     def ready(self) -> None:
-        """Say that the server is ready, now and to each who subscribes later."""
+        """Tell the subscribers that the server is ready, and each later one when it subscribes."""
         self._ready = True
         self._outbox.put(lambda: self._events.publish(ready_message()))
         self._outbox.put(self._publish_status)
@@ -75,13 +75,13 @@ class Publications:
         return status_message(self._entries, self._server, self._ready, time.time())
 
     def close(self) -> None:
-        """Send what was told, and nothing more."""
+        """Send what was told so far, and nothing after it."""
         self._closed.set()
         self._outbox.close(2.0)
         _flush(self._events, self._status)
 
     def _greeting(self) -> Optional[CapabilityEvent]:
-        """What somebody is told who has just subscribed to the events."""
+        """The event for a new subscriber, if any."""
         return ready_message() if self._ready else None
 
     def _publish_status(self) -> None:
@@ -99,7 +99,7 @@ class Publications:
 
 
 class _Greeting(rospy.SubscribeListener):   # type: ignore[misc]
-    """Tells each new subscriber of a topic, and no other, what those before it were told."""
+    """Sends a message to each new subscriber of a topic, and to no other."""
 
     def __init__(self, message: Callable[[], Optional[CapabilityEvent]]) -> None:
         super().__init__()

@@ -21,7 +21,7 @@ class Roster:
 
     :param clock: called for the time, in seconds since 1970
 
-    Of a capability there are at most two: one that stops, and one that runs or is on its way.
+    A capability has at most two instances: one that stops, and one that runs or is on its way.
     ``failures`` (dict from str to `Failure`) is what ended unasked or could not start, by the name
     of the capability, until it is wanted again.
 
@@ -55,7 +55,7 @@ class Roster:
                 if instance in other.dependencies]
 
     def could_not_start(self, interface: str, provider: str, text: str) -> None:
-        """Remember that a capability that was to run cannot."""
+        """Remember that a capability could not be started."""
         self.failures[interface] = Failure(interface, provider, False, 0, (), self._clock(),
                                            NO_EXIT_CODE, text)
 
@@ -65,7 +65,7 @@ class Roster:
                          if name in interfaces}
 
     def _enter(self, planned: Iterable[CapabilityInstance]) -> None:
-        """Add the instances of a plan that are not there."""
+        """Add the planned instances whose capability has no current instance."""
         for instance in planned:
             if instance.interface not in self._current:
                 instance.dependencies = [self._current[name] for name in instance.depends_on]

@@ -1,11 +1,11 @@
 """
-Run a launch file, and report what becomes of its nodes.
+Run a launch file, and report what happens to its nodes.
 
-roslaunch's own command tells neither that a node died nor with which exit code. This is a
-script over its `ROSLaunchParent`, run by its path with the launch file as its argument. Its
+roslaunch's own command reports neither that a node died nor its exit code. This script uses its
+`ROSLaunchParent`, and is run by its path with the launch file as its argument. Its
 standard input holds a JSON object: ``arguments`` for the launch file, ``screen``, and the file
 descriptor ``reports``, to which it writes a JSON object a line: see `capabilities.launch.Report`.
-It ends with the exit code of the node that ended last with another than 0.
+Its exit code is that of the last node that ended with another than 0.
 """
 import os
 import signal
@@ -100,7 +100,7 @@ class _Runner(roslaunch.launch.ROSLaunchRunner):    # type: ignore[misc]
         return super()._launch_master()
 
     def _check_and_set_run_id(self, param_server: Any, run_id: str) -> None:
-        """Take the id that another start has set since this one asked for it."""
+        """Take the id that another start has set in the meantime."""
         for _ in range(3):
             code, _, value = param_server.getParam('/roslaunch', '/run_id')
             if code == 1:
@@ -131,7 +131,7 @@ class _Runner(roslaunch.launch.ROSLaunchRunner):    # type: ignore[misc]
 
 
 class _Parent(roslaunch.parent.ROSLaunchParent):    # type: ignore[misc]
-    """roslaunch's parent, with a listener that hears of each node."""
+    """roslaunch's parent, with a listener that is told of each node."""
 
     reports: _Reports
 
@@ -161,7 +161,7 @@ def _node_name(process_name: str) -> str:
 
 
 def _run_id() -> str:
-    """The id under which the master's roslaunch processes belong together."""
+    """The run id, which all roslaunch processes of one master share."""
     try:
         return str(rosgraph.Master('/roslaunch').getParam('/run_id'))
     except rosgraph.MasterException:        # nobody has set it

@@ -1,10 +1,10 @@
 """
 The graph of what is wanted, joined with the processes that run it.
 
-A `Runtime` has the one lock of the capability server. Requests, bonds, and what happens to
-processes become events of the graph under it, and the actions of the graph are carried out before
-it is released; nothing that takes long is done while it is held. It knows launch files and
-processes, and no ROS: what is to be published goes to an `Audience`.
+A `Runtime` has the one lock of the capability server. Under the lock, requests, bonds and events of
+processes are told to the graph, and the actions of the graph are carried out; nothing that takes
+long is done while it is held. A `Runtime` knows launch files and processes, but not ROS: an
+`Audience` publishes.
 """
 from __future__ import annotations
 
@@ -32,20 +32,20 @@ T = TypeVar('T')
 
 _EVENTS = {Do.TELL_LAUNCHED: 'launched', Do.TELL_STOPPED: 'stopped',
            Do.TELL_TERMINATED: 'terminated'}
-_LOSSES = 3                 # so many losses of the nodelet manager
-_LOSSES_SECONDS = 60.0      # in this time are one too many
+_LOSSES = 3                 # this many losses of the nodelet manager
+_LOSSES_SECONDS = 60.0      # within this time are too many
 
 
 class Runtime:
     """
-    What runs, and how it is started and stopped. Its methods may be called in any thread.
+    Starts and stops capabilities. Its methods may be called in any thread.
 
     :param audience: is told what happens
     :param Catalogue catalogue: what can be started
-    :param bool keep_dependents: do dependents of what ended unasked go on?
-    :param bool ends_without_nodelet_manager: must the server end when it loses that?
+    :param bool keep_dependents: keep the dependents of a capability that ended unasked?
+    :param bool ends_without_nodelet_manager: end the server when the nodelet manager ends?
 
-    All methods that are asked for something raise `RefusedRequest` once the server ends.
+    All methods that serve a request raise `RefusedRequest` once the server ends.
     """
 
     def __init__(self, audience: Audience, catalogue: Catalogue, keep_dependents: bool = False,
@@ -66,7 +66,7 @@ class Runtime:
 
     @property
     def manager(self) -> LaunchManager:
-        """What runs the launch files (`LaunchManager`)."""
+        """The `LaunchManager`, which runs the launch files."""
         assert self._manager is not None
         return self._manager
 
@@ -113,7 +113,7 @@ class Runtime:
         self._with_plan(capability, preferred, use)
 
     def free(self, capability: str, bond_id: str) -> None:
-        """Count a use less, and wait until the capability has ended if that was the last want."""
+        """Count one use less. If nobody wants the capability now, wait until it has ended."""
         self._wait_for(lambda: self.graph.free(capability, bond_id))
 
     def stop(self, capability: str) -> None:
@@ -121,13 +121,13 @@ class Runtime:
         self._wait_for(lambda: self.graph.stop(capability))
 
     def bond_made(self, bond_id: str) -> None:
-        """There is a new bond."""
+        """Accept uses by a new bond."""
         with self.lock:
             self.check_running()
             self.graph.bond_formed(bond_id)
 
     def bond_broken(self, bond_id: str) -> None:
-        """A bond is no more."""
+        """Drop the uses of a bond that has ended."""
         with self.lock:
             self.graph.bond_broken(bond_id)
             self._carry_out()
@@ -147,7 +147,7 @@ class Runtime:
 
     def reload(self, read: Callable[[], Catalogue]) -> None:
         """
-        Replace the catalogue. Nothing that runs is touched, and what it raises changes nothing.
+        Replace the catalogue. Nothing that runs is touched; if it raises, nothing changes.
 
         :param read: makes the new one; called without the lock
         """
@@ -158,7 +158,7 @@ class Runtime:
         catalogue = read()
         with self.lock:
             self.check_running()
-            if reload > self._newest_reload:    # else one that began later has been faster
+            if reload > self._newest_reload:    # otherwise a later one was faster
                 self._newest_reload = reload
                 self.catalogue = catalogue
                 self.graph.forget_failures(set(catalogue.spec_index.interface_names)
@@ -180,7 +180,7 @@ class Runtime:
             self._carry_out()
 
     def launch_ended(self, pid: int, exit_code: int, text: str) -> None:
-        """All processes of a launch are gone."""
+        """Note that all processes of a launch are gone."""
         with self.lock:
             instance = self._by_pid.pop(pid, None)
             if instance is None:
@@ -193,7 +193,7 @@ class Runtime:
             self._carry_out()
 
     def nodelet_manager_ended(self, pid: int, exit_code: int, text: str) -> None:
-        """The nodelet manager is gone: it is started again, or the server ends."""
+        """Start the nodelet manager again after its end, or end the server."""
         self._has_manager.wait()
         with self.lock:
             self._tell_of_manager('terminated', pid)
@@ -244,7 +244,7 @@ class Runtime:
                 self.check_running()
                 plan = self._plan(capability, preferred, running_providers(self.graph),
                                   may_read=False)
-                if plan.unread:     # of what has been reloaded or begun to stop meanwhile
+                if plan.unread:     # there was a reload or a stop meanwhile
                     continue
                 if plan.faults:
                     raise RefusedRequest(error_text(plan))
@@ -268,7 +268,7 @@ class Runtime:
             event.wait()
 
     def _carry_out(self) -> None:
-        """Do what the graph says, until it says nothing more."""
+        """Carry out the actions of the graph until there are none."""
         actions = self.graph.take_actions()
         while actions:
             for action in actions:
@@ -284,7 +284,7 @@ class Runtime:
             try:
                 self.manager.begin_stop(instance.pid or 0)
             except RuntimeError:
-                pass    # it has ended by itself, and that will be told
+                pass    # it has ended by itself; `launch_ended` follows
         elif do is Do.GONE:
             event = self._gone.pop(id(instance), None)
             if event is not None:
@@ -310,7 +310,7 @@ class Runtime:
             self.graph.launched(instance, pid)
 
     def _tell_of_manager(self, event: str, pid: Optional[int] = None) -> None:
-        """Tell of the nodelet manager, if there is one."""
+        """Tell the audience of an event of the nodelet manager, if there is one."""
         if self._manager is not None:
             pid = pid or self._manager.nodelet_manager_pid
             if pid is not None:

@@ -1,9 +1,9 @@
 """
 The capability server: starts what a robot can do for whoever needs it.
 
-This is its node. Requests go to `capabilities.runtime`, which decides and starts processes; what
-that tells goes out as messages. Of what is decided there, nothing depends on messages that come in
-on ``~events`` or ``~status``: nobody can pretend that something has ended.
+This is its node. Requests go to `capabilities.runtime`, which decides and starts processes; its
+events go out as messages. Incoming messages on ``~events`` or ``~status`` have no effect: nobody
+can pretend that something has ended.
 """
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class CapabilityServer:
         self.__bonds: Optional[Bonds] = None
         self.__publications = Publications(self.__name, self.must_end)
         self.__exit_status: Optional[int] = None
-        self.__has_started = False      # anything that would have to be ended
+        self.__has_started = False      # is there anything to end?
         self.__has_ended = False
         # A signal handler may write to a pipe; it must not touch what the main thread may hold.
         self.__wake_up_read, self.__wake_up = os.pipe()
@@ -117,7 +117,7 @@ class CapabilityServer:
         self.__has_ended = True
 
     def handle_capability_events(self, event: object) -> None:
-        """Do nothing: what the server knows it does not know from messages."""
+        """Do nothing: the server takes no knowledge from messages."""
 
     # how it serves
 
@@ -199,8 +199,8 @@ def create_parser() -> argparse.ArgumentParser:
     :returns: ``argparse.ArgumentParser``
     """
     parser = argparse.ArgumentParser(
-        prog='capability_server', description='Starts the capabilities of a robot for those who '
-        'need them.')
+        prog='capability_server', description='Starts the capabilities of a robot for the '
+        'clients that need them.')
     parser.add_argument('package_path', nargs='?',
                         help='folders in which packages with capabilities are looked for, '
                              'separated by colons (default: ROS_PACKAGE_PATH)')
@@ -249,18 +249,18 @@ def main(sysargv: Optional[List[str]] = None) -> int:
 
 def _accept_many() -> None:
     """
-    Let as many connections wait as the system does; rospy has only five do so.
+    Let as many connections wait as the system allows; rospy allows five.
 
-    The system drops the sixth, and who has asked tries again after one second, three, seven.
+    The system drops the sixth, and that client tries again only after 1, 3 and 7 seconds.
     """
     try:
         rospy.impl.tcpros_base.init_tcpros_server().tcp_ros_server.server_sock.listen(socket.SOMAXCONN)
-    except (AttributeError, OSError):       # another rospy: it stays as it is
+    except (AttributeError, OSError):       # another version of rospy: leave it
         pass
 
 
 def _leave(number: int, frame: object) -> None:
-    """End at once on a signal: nothing was started so far."""
+    """End at once on a signal, while nothing has been started."""
     raise SystemExit(0)
 
 

@@ -41,7 +41,7 @@ class Services:
         self._services: List[rospy.Service] = []
 
     def advertise_status(self) -> None:
-        """Offer what can be answered before anything can be started."""
+        """Offer ``get_status``, which answers before anything can be started."""
         self._advertise('get_status', srv.GetStatus, self._get_status)
 
     def advertise(self) -> None:
@@ -69,7 +69,7 @@ class Services:
             '~' + name, service, self._answering(handler), error_handler=_log))
 
     def _answering(self, handler: Callable[..., object]) -> Callable[[object], object]:
-        """A handler whose errors are a line each. rospy sends them to who asked."""
+        """Wrap a handler so that each error is one line, which rospy sends to the client."""
         def answer(request: object) -> object:
             try:
                 self._runtime.check_running()
@@ -77,12 +77,12 @@ class Services:
             except RuntimeError as error:
                 raise RuntimeError(printable(str(error))) from None
             except Exception as error:
-                _logger.debug('of a request', exc_info=True)
+                _logger.debug('while a request was handled', exc_info=True)
                 raise RuntimeError('internal error: %s: %s' % (
                     type(error).__name__, printable(str(error)))) from None
         return answer
 
-    # what starts and stops
+    # starting and stopping
 
     def _start(self, request: srv.StartCapabilityRequest) -> srv.StartCapabilityResponse:
         result = self._runtime.start(request.capability, request.preferred_provider)
@@ -119,7 +119,7 @@ class Services:
             [step.capability for step in plan.steps], [step.provider for step in plan.steps],
             [step.running for step in plan.steps], [fault.reason for fault in plan.faults])
 
-    # what is asked
+    # queries
 
     def _get_status(self, request: object) -> srv.GetStatusResponse:
         return srv.GetStatusResponse(self._status())

@@ -1,4 +1,4 @@
-"""What a start would do beside what runs, and the instances that it makes."""
+"""Plans starts beside the running capabilities, and makes the instances."""
 from __future__ import annotations
 
 import os
@@ -16,7 +16,7 @@ __all__ = ['Starts', 'running_providers']
 
 def running_providers(roster: Roster) -> List[RunningProvider]:
     """
-    All instances, as a plan has to know them.
+    All instances, in the form that a plan takes.
 
     >>> running_providers(Roster(lambda: 0.0))
     []
@@ -50,7 +50,7 @@ class Starts:
 
     def instances(self, catalogue: Catalogue, plan: StartPlan) -> List[CapabilityInstance]:
         """
-        New instances of what a plan without faults has to start; reads nothing.
+        New instances for a plan without faults; reads no file.
 
         :returns: list of `CapabilityInstance`, dependencies first
         """

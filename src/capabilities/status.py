@@ -1,4 +1,4 @@
-"""What the capability server says about each capability that is wanted, ends or has failed."""
+"""The status of each capability that is wanted, is ending or has failed."""
 from __future__ import annotations
 
 from typing import Dict, List, NamedTuple, Tuple
@@ -8,7 +8,7 @@ from capabilities.roster import Roster
 
 __all__ = ['FAILED', 'StatusEntry', 'status_entries']
 
-#: the state of what ended unasked or could not start; it has no instance
+#: the state of a capability that ended unasked or could not start; it has no instance
 FAILED = 'failed'
 
 
@@ -28,21 +28,21 @@ class StatusEntry(NamedTuple):
     started: bool
     #: how many uses it has
     uses: int
-    #: what depends on it directly, by name
+    #: the names of its direct dependents
     dependents: Tuple[str, ...]
     #: 0 where there is no process
     pid: int
     #: since when it is in this state, in seconds since 1970
     since: float
-    #: -1 where there is none
+    #: -1 if there is none
     exit_code: int
-    #: what is to be said about it
+    #: notes and reasons, for a person
     text: str
 
 
 def status_entries(roster: Roster) -> List[StatusEntry]:
     """
-    What is to be said of all capabilities that are wanted, end, or have failed.
+    The entries of all capabilities that are wanted, are ending or have failed.
 
     :param Roster roster: the graph
     :returns: list of `StatusEntry`, failures last

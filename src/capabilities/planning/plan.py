@@ -1,4 +1,4 @@
-"""What a start would do, as values: `StartPlan`, and the error that refuses one."""
+"""The values of a plan: `StartPlan`, and the error that refuses one."""
 from __future__ import annotations
 
 from typing import Dict, List, NamedTuple, Optional, Tuple
@@ -50,7 +50,7 @@ class PlannedProvider(NamedTuple):
 
 class StartPlan(NamedTuple):
     """
-    What it takes to start some capabilities.
+    The providers that have to run for some capabilities, and the faults.
 
     >>> StartPlan([], {}, {}, []).can_start
     True
@@ -63,7 +63,7 @@ class StartPlan(NamedTuple):
     providers: Dict[str, str]
     #: the providers that each of the providers depends on directly
     dependencies: Dict[str, List[str]]
-    #: all that stands in the way, in the order in which it was met; then conflicts, then one cycle
+    #: all faults, in the order in which they were met; then conflicts, then one cycle
     #: of each set of providers that all depend on each other, then what cannot be launched in the
     #: order of the start, then launch files that are shared
     faults: List[Fault]
@@ -74,7 +74,7 @@ class StartPlan(NamedTuple):
 
     @property
     def can_start(self) -> bool:
-        """Does nothing stand in the way? (bool)"""
+        """Can it be started? (bool)"""
         return not self.faults
 
 
