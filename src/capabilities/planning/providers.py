@@ -1,5 +1,5 @@
 """
-Which provider runs a capability, what has to run before it, and what stands in the way.
+Which provider runs a capability, what has to run before it, and which faults prevent it.
 
 A *capability* is an interface or a semantic interface; a provider implements one and depends on
 others. `plan_start`, `plan_for_capabilities` and `plan_for_provider` choose a provider for each and
@@ -10,12 +10,12 @@ say in which order they start::
     plan.faults     # a list of Fault, empty where all of it can be started
 
 `choose_provider` makes the single choice: the provider that a dependency prefers, else the one that
-``defaults`` names for the capability, else the only one there is. One that is named and is not
-there, or implements something else, is a fault; another one is not put in its place. A provider of
-a semantic interface may be named for the interface that it redefines, and is not picked for it
-otherwise; it runs as an instance of the semantic interface.
+``defaults`` names for the capability, else the only one there is. If a named provider does not
+exist or implements something else, that is a fault, and no other takes its place. A provider of a
+semantic interface may be named for the interface that it redefines, but is never picked for it; it
+runs as an instance of the semantic interface.
 
-All faults are found, not just the first, in a time that grows with what is reached and no more.
+All faults are found, not just the first, in a time that grows only with what is reached.
 """
 from __future__ import annotations
 
