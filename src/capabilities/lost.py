@@ -17,7 +17,7 @@ _logger = logging.getLogger('rosout.capabilities')
 
 
 class _Use(NamedTuple):
-    """A capability that is used."""
+    """A use of a capability."""
 
     #: its name in the status: the name that was asked for, or that of a semantic interface
     entry: str

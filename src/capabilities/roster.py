@@ -1,5 +1,5 @@
 """
-The instances that there are, what they stand on, and what is remembered of those that failed.
+The instances of capabilities, their dependencies, and the failures that are remembered.
 
 A `Roster` knows and changes nothing but that; `capabilities.graph.Graph` decides on it.
 """

@@ -1,1 +1,1 @@
-"""What a start would do: which providers, in which order, and what stands in the way."""
+"""What a start would do: which providers start, in which order, and which faults prevent it."""

@@ -13,7 +13,7 @@ __all__ = ['Fault', 'FaultKind']
 
 
 class FaultKind(Enum):
-    """What stands in the way of starting a capability. The value is a stable id."""
+    """The kinds of faults. The value is a stable id."""
 
     #: no package exports the capability
     NO_INTERFACE = 'no-interface'
@@ -48,7 +48,7 @@ class FaultKind(Enum):
 @dataclass(frozen=True, repr=False)
 class Fault:
     """
-    One thing that stands in the way. Its text is one line.
+    A fault: one reason why a capability cannot be started. Its text is one line.
 
     >>> fault = Fault(FaultKind.NO_PROVIDER, 'ours/Map', 'ours/Drive', required_by='ours/base')
     >>> print(fault)
@@ -58,7 +58,7 @@ class Fault:
 no provider implements it
     """
 
-    #: what stands in the way
+    #: the kind of the fault
     kind: FaultKind
     #: the capability that cannot be had
     capability: str
@@ -101,7 +101,7 @@ no provider implements it
 
     @property
     def is_of_the_capability(self) -> bool:
-        """Is it what was asked for that cannot be had, and not something that it depends on?"""
+        """Is the fault of the capability that was asked for, and not of a dependency?"""
         return self.required_by is None and self.kind in _OF_THE_CAPABILITY
 
     @property

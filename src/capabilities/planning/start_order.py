@@ -10,7 +10,7 @@ Node = TypeVar('Node', bound=Hashable)
 
 def components(graph: Mapping[Node, Sequence[Node]]) -> Iterator[List[Node]]:
     """
-    The strongly connected components of a graph: each those that depend on before those they do.
+    The strongly connected components of a graph, each after the components that it depends on.
 
     This is Tarjan's algorithm, without recursion, in time linear in nodes and edges.
 

@@ -1,4 +1,4 @@
-"""A capability server that runs, as the verbs ask it."""
+"""Requests of the verbs to a running capability server."""
 from __future__ import annotations
 
 import re
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 __all__ = ['Refused', 'RunningServer', 'Unreachable', 'add_running', 'add_server',
            'capability_names', 'what_runs']
 
-_RUNNING = ('launching', 'running', 'degraded')    # the states of what is there for who uses it
-_TIMEOUT = 1.5      # seconds for the master, and for the server; a person waits no longer
+_RUNNING = ('launching', 'running', 'degraded')    # the states in which it can be used
+_TIMEOUT = 1.5      # seconds to wait for the master, and for the server
 
 
 class Unreachable(Exception):
-    """There is no ROS, no master or no server; the text is one line."""
+    """ROS, the master or the server is missing; the text is one line."""
 
 
 class Refused(Exception):
@@ -93,7 +93,7 @@ class RunningServer:
         import socket
         import rosgraph
         before = socket.getdefaulttimeout()
-        socket.setdefaulttimeout(_TIMEOUT)      # of what the master is asked, which has none
+        socket.setdefaulttimeout(_TIMEOUT)      # requests to the master have none of their own
         try:
             master = rosgraph.Master('/rocon_uri')
             services = master.getSystemState()[2]
@@ -148,7 +148,7 @@ class RunningServer:
 
 
 def _error_text(text: str) -> 'str | None':
-    """What a service said, of what rospy makes of it; None where it said nothing."""
+    """The text of a service's error, out of rospy's; None if the service sent none."""
     match = re.fullmatch(r'service \[.*?\] responded with an error: (?:b(?P<q>[\'"]))?'
                          r'(?:error processing request: )?(.*?)(?(q)(?P=q))', text, re.DOTALL)
     if match is None:

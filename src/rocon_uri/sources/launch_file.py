@@ -32,7 +32,7 @@ __all__ = ['MISSING', 'NOT_XML', 'NO_LAUNCH', 'OUTSIDE', 'UNREADABLE', 'LaunchFa
 
 #: the kinds of faults: nothing is there
 MISSING = 'launch-missing'
-#: it is not in the package of who names it
+#: it is outside the package of the file that names it
 OUTSIDE = 'launch-outside'
 #: it is not a file, cannot be opened, or is larger than 1 MiB
 UNREADABLE = 'launch-unreadable'
@@ -64,7 +64,7 @@ class LaunchFault:
     name: str
     #: where it is looked for
     path: str
-    #: where in the file, counted from 1; None where it is in no one place
+    #: the line, counted from 1; None if the fault has no single place
     line: Optional[int] = None
     #: counted from 1, or None
     column: Optional[int] = None
@@ -123,8 +123,8 @@ class LaunchFiles:
 
     def look_at(self, name: str, folder: str) -> LaunchFile:
         """
-        What there is to say about a launch file. Its state is asked for, at the cost of one
-        ``stat``; it is read if that is not the state in which it was read last.
+        What is known about a launch file. Costs one ``stat``; the file is read only if it has
+        changed since it was last read.
 
         :param str name: its path, absolute or relative to the folder
         :param str folder: where the file is that names it: the spec, or the app
@@ -144,7 +144,7 @@ class LaunchFiles:
         return file
 
     def remembered(self) -> RememberedLaunchFiles:
-        """What is known without a look at the disk, for who holds a lock."""
+        """What is known without a look at the disk, for callers that hold a lock."""
         return RememberedLaunchFiles(self._remembered)
 
     def _remembered(self, name: str, folder: str) -> Optional[LaunchFile]:
