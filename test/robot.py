@@ -14,7 +14,7 @@ import threading
 import time
 
 from made_packages import make_package
-from ros_master import Master, make_test_nodes, node
+from ros_master import Master, ignores_sigterm, make_test_nodes, node
 from sources import SOURCE
 
 INTERFACE = 'name: %s\nspec_version: 1\nspec_type: interface\ninterface: {}\n'
@@ -315,12 +315,7 @@ class Server:
     def stubborn_node_pid(self, name):
         """The same of a node that ignores SIGTERM, once it does so."""
         pid = self.node_pid(name)
-
-        def ignores():
-            with open('/proc/%d/status' % pid) as status:
-                mask = next(line.split()[1] for line in status if line.startswith('SigIgn'))
-            return int(mask, 16) & (1 << signal.SIGTERM - 1)
-        eventually(ignores)
+        eventually(lambda: ignores_sigterm(pid))
         return pid
 
 

@@ -83,6 +83,16 @@ class Master:
             return False
 
 
+def ignores_sigterm(pid):
+    """Does a process ignore SIGTERM by now? False for one that has ended."""
+    try:
+        with open('/proc/%d/status' % pid) as status:
+            mask = next(line.split()[1] for line in status if line.startswith('SigIgn'))
+    except (OSError, StopIteration):
+        return False
+    return bool(int(mask, 16) & (1 << signal.SIGTERM - 1))
+
+
 def make_test_nodes(workspace):
     """Write the package test_nodes, whose node does what its arguments say."""
     path = make_package(workspace, 'test_nodes') / 'node'

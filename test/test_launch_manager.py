@@ -17,7 +17,7 @@ from capabilities import launch_manager
 from capabilities.launch_manager import LaunchManager, which
 from capabilities.processes import ServerRun, find_marked, kill_marked
 from capabilities.specs.provider import CapabilityProvider
-from ros_master import Master, make_test_nodes, node
+from ros_master import Master, ignores_sigterm, make_test_nodes, node
 
 pytest.importorskip('roslaunch', reason='ROS is not installed')
 
@@ -108,6 +108,12 @@ def processes_of(run):
     """The nodes and runners of a run, by their command lines."""
     return {pid: process.command for pid, process in
             find_marked(lambda process: process.run == run.run).items()}
+
+
+def wait_for_stubborn(run):
+    """Wait until a node of a run ignores signals; before, they end it."""
+    wait_until(lambda: any('ignore' in command and ignores_sigterm(pid)
+                           for pid, command in processes_of(run).items()))
 
 
 def wait_until(condition):
@@ -232,10 +238,11 @@ def test_what_is_not_there_cannot_be_stopped(manager):
         manager._LaunchManager__monitor_process(-1)
 
 
-def test_nobody_waits_for_a_stubborn_node(manager, listener, provider):
+def test_nobody_waits_for_a_stubborn_node(manager, listener, provider, run):
     stubborn = manager.run_capability_provider(
         *provider(node('stubborn', 'ignore sleep 1000'), name='a'))
     listener.until(stubborn, 'started')
+    wait_for_stubborn(run)
     manager.begin_stop(stubborn)
     manager.begin_stop(stubborn)
     other = manager.run_capability_provider(*provider(node('other', 'sleep 1000'), name='b'))
@@ -248,7 +255,7 @@ def test_a_roslaunch_that_does_not_end_in_its_time_is_killed(
     monkeypatch.setattr('capabilities.launch.STOP_SECONDS', 0.5)
     pid = manager.run_capability_provider(*provider(node('a', 'ignore sleep 1000')))
     listener.until(pid, 'started')
-    wait_until(lambda: any('ignore' in command for command in processes_of(run).values()))
+    wait_for_stubborn(run)
     manager.stop_capability_provider(pid)
     assert listener.end(pid) == ('ended', 128 + 9, 'signal 9')
     assert not processes_of(run)
