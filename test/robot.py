@@ -328,7 +328,7 @@ class Robot:
         self.workspace.mkdir()
         self.package = make_robot(self.workspace)
         self.master = Master(folder, self.workspace)
-        self.numbers = 0
+        self.servers = []
         self.server_environment = dict(
             self.master.environment, PYTHONPATH=os.pathsep.join(
                 [str(SOURCE)] + [path for path in sys.path if path]),
@@ -348,6 +348,9 @@ class Robot:
 
     def __exit__(self, *error):
         import rospy
+        for server in self.servers:     # those that a test that failed has left
+            if server.process is not None:
+                server.end()
         rospy.signal_shutdown('the tests are over')
         for thread in threading.enumerate():
             if thread.name.startswith('rosout'):
@@ -356,5 +359,6 @@ class Robot:
 
     def server(self, parameters=None, arguments=(), name=None):
         """A server, of a name that no other has unless it is given, which is not started yet."""
-        self.numbers += 1
-        return Server(self, name or 'server_%d' % self.numbers, parameters, arguments)
+        self.servers.append(
+            Server(self, name or 'server_%d' % (len(self.servers) + 1), parameters, arguments))
+        return self.servers[-1]

@@ -76,7 +76,7 @@ def catalogue_of(spec_index: SpecIndex, parameters: Parameters) -> Catalogue:
     The catalogue of specs that were read and filtered.
 
     :returns: `Catalogue`
-    :raises InvalidConfiguration: as of `read_catalogue`
+    :raises InvalidConfiguration: as `read_catalogue` does
     """
     defaults = default_providers(spec_index, parameters)
     paths = {**spec_index.interface_paths, **spec_index.semantic_interface_paths,

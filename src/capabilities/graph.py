@@ -84,7 +84,7 @@ class Graph(Roster):
         A client uses a capability. One that stops starts again when it has ended.
 
         :param str interface: the name that its instance has
-        :param planned: as of `start`
+        :param planned: as `start` takes it
         :param str bond_id: the bond of the client
         :param str asked_as: the name that the client said: ``interface``, or what it redefines
         :raises RefusedRequest: if the server ends, or there is no such bond

@@ -200,7 +200,7 @@ def kill_marked(wanted: Wanted, seconds: float = _UNKILLABLE) -> bool:
     """
     Send SIGKILL to marked processes until none is found any more.
 
-    :param wanted: as of `find_marked`
+    :param wanted: as `find_marked` takes it
     :param float seconds: how long to try
     :returns: bool, whether nothing is left
 
@@ -217,7 +217,7 @@ def end_marked(wanted: Wanted, interrupt: Optional[float] = 5.0, terminate: floa
 
     SIGINT goes to those whose parent is not one of them: a roslaunch passes it on to its nodes.
 
-    :param wanted: as of `find_marked`
+    :param wanted: as `find_marked` takes it
     :param float interrupt: seconds from SIGINT to SIGTERM; None sends no SIGINT
     :param float terminate: seconds from SIGTERM to SIGKILL
     :param float settle: seconds for which nothing must be found
@@ -304,7 +304,7 @@ def exit_code(returncode: int) -> int:
     """
     The exit code of a process as a shell tells it.
 
-    :param int returncode: as of `subprocess`, negative for a signal
+    :param int returncode: as `subprocess` gives it, negative for a signal
     :returns: int, 128 + n for signal n
 
     >>> exit_code(5), exit_code(-9)
@@ -317,7 +317,7 @@ def exit_text(returncode: int) -> str:
     """
     How a process ended, in words.
 
-    :param int returncode: as of `subprocess`, negative for a signal
+    :param int returncode: as `subprocess` gives it, negative for a signal
     :returns: str
 
     >>> exit_text(5), exit_text(-9)
