@@ -18,7 +18,7 @@ def at_once(function: Callable[[], Result], threads: int = 16) -> List[Result]:
         return function()
 
     interval = sys.getswitchinterval()
-    sys.setswitchinterval(1e-6)     # so that they meet often
+    sys.setswitchinterval(1e-5)     # so that they meet often
     try:
         with ThreadPoolExecutor(threads) as pool:
             return [future.result() for future in [pool.submit(call) for _ in range(threads)]]
