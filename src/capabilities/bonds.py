@@ -9,7 +9,7 @@ from bond.msg import Status
 from bondpy import bondpy
 import rospy
 
-__all__ = ['Bonds']
+__all__ = ['Bonds', 'watch_from_now']
 
 #: how many heartbeats to one client may be queued; all bonds share the topic, and in a shorter
 #: queue heartbeats of the same moment would push each other out
@@ -43,8 +43,8 @@ class Bonds:
 
     def start(self, bond_id: str) -> None:
         """Begin a bond of a new id."""
-        bond = bondpy.Bond(self._topic, bond_id, lambda: self._broken(bond_id),
-                           lambda: self._formed(bond_id))
+        bond = bondpy.Bond(self._topic, bond_id, lambda: self._broken(bond_id))
+        bond.set_formed_callback(lambda: watch_from_now(bond))
         self._publisher.impl.set_queue_size(_QUEUE_SIZE)    # the bond has set it to 1
         with self._lock:
             self._bonds[bond_id] = bond
@@ -66,18 +66,16 @@ class Bonds:
         if bond is not None:
             bond._on_bond_status(status)
 
-    def _formed(self, bond_id: str) -> None:
-        """Watch a client from its first answer; bondpy would wait for a second heartbeat."""
-        with self._lock:
-            bond = self._bonds.get(bond_id)
-        if bond is not None:
-            with bond.lock:
-                if bond.sm.getState().getName() == 'SM.Alive':
-                    bond.heartbeat_timer.reset()
-
     def _broken(self, bond_id: str) -> None:
         with self._lock:
             bond = self._bonds.pop(bond_id, None)
         self._on_broken(bond_id)
         if bond is not None:
             self._later(bond.shutdown)      # not now: the bond is in the middle of this call
+
+
+def watch_from_now(bond: bondpy.Bond) -> None:
+    """Watch the other half from its first answer; bondpy would wait for a second heartbeat."""
+    with bond.lock:
+        if bond.sm.getState().getName() == 'SM.Alive':
+            bond.heartbeat_timer.reset()

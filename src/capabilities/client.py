@@ -23,8 +23,9 @@ from typing import Callable, Dict, Iterable, List, Optional, Set
 import capabilities.needs_ros  # noqa: F401
 import rospy
 from bondpy import bondpy
-from capabilities.msg import CapabilityStatuses
+from capabilities.bonds import watch_from_now
 from capabilities.lost import LostWatch
+from capabilities.msg import CapabilityStatuses
 from capabilities.srv import EstablishBond, FreeCapability, UseCapability
 
 __all__ = ['CannotEstablishBondException', 'CapabilitiesClient', 'CapabilityNotInUseException',
@@ -161,7 +162,7 @@ class CapabilitiesClient:
                 return None
             bond_id: str = self._call('establish_bond').bond_id
             bond = bondpy.Bond('%s/bonds' % self._name, bond_id, lambda: self._broken(bond_id))
-            bond.set_formed_callback(lambda: _formed(bond))
+            bond.set_formed_callback(lambda: watch_from_now(bond))
             bond.start()
             if not bond.wait_until_formed(None if timeout is None else rospy.Duration(timeout)):
                 bond.shutdown()
@@ -283,10 +284,3 @@ class CapabilitiesClient:
             except rospy.ServiceException:      # the server has just gone again
                 pass
             self._ended.wait(_RETRY / 10)
-
-
-def _formed(bond: bondpy.Bond) -> None:
-    """Watch the server from its first answer; bondpy would wait for a second heartbeat."""
-    with bond.lock:
-        if bond.sm.getState().getName() == 'SM.Alive':
-            bond.heartbeat_timer.reset()

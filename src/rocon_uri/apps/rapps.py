@@ -22,7 +22,8 @@ from rocon_uri.apps.rapp import (
     InvalidRapp, Rapp, RequiredCapability, rapp_from_file_path, rapp_from_string)
 from rocon_uri.apps.runnable import Reason, ReasonKind, Verdict, runnable
 from rocon_uri.sources.packages import Package, as_package
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted, quoted_path
+from rocon_uri.sources.wording import (
+    did_you_mean, near_misses, of_same_package_or_name, quoted, quoted_path)
 
 if TYPE_CHECKING:
     from catkin_pkg.package import Package as CatkinPackage
@@ -147,10 +148,7 @@ def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[Inval
 
 def _missing_parent_error(rapp: Rapp, by_name: Mapping[str, Rapp]) -> InvalidRapp:
     parent_name = rapp.parent_name or ''
-    package, _, own_name = parent_name.partition('/')
-    near = near_misses(parent_name, [     # not all names, which may be very many
-        name for name in by_name
-        if name.startswith(package + '/') or name.endswith('/' + own_name)])
+    near = near_misses(parent_name, of_same_package_or_name(parent_name, by_name))
     return InvalidRapp('parent_name %s does not exist or cannot be read%s' % (
         quoted(parent_name), did_you_mean(near)),
         rapp.path, *rapp.position('parent_name'))

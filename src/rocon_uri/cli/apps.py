@@ -29,7 +29,7 @@ from __future__ import annotations
 
 from argparse import ArgumentTypeError
 
-from rocon_uri.cli.display import painter, print_json
+from rocon_uri.cli.display import fields_as_json, painter, print_json
 from rocon_uri.cli.given import GivenURI
 from rocon_uri.cli.packages import (
     PackageReport, add_package_path, escape_unencodable, printable, shortened, workspace)
@@ -204,15 +204,7 @@ def _as_json(verdict: Verdict, running: Optional[Dict[str, str]]) -> Dict[str, A
         'running': _running_of(verdict, running),
         'reasons': [{
             'kind': reason.id, 'text': str(reason),
-            'fields': _fields(reason),
+            'fields': None if reason.explanation is None else fields_as_json(reason.explanation),
             'fault': None if reason.fault is None else reason.fault.to_dict(),
         } for reason in verdict.reasons],
     }
-
-
-def _fields(reason: Reason) -> Optional[List[Dict[str, Any]]]:
-    if reason.explanation is None:
-        return None
-    return [{'field': field.field, 'a': field.a, 'b': field.b,
-             'compatible': field.is_compatible, 'in_common': field.shared}
-            for field in reason.explanation.fields]

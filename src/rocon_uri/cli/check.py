@@ -19,7 +19,7 @@ where no name is in both
 """
 from __future__ import annotations
 
-from rocon_uri.cli.display import painter, print_json
+from rocon_uri.cli.display import fields_as_json, painter, print_json
 from rocon_uri.cli.given import GivenURI, Report, say
 from rocon_uri.compatibility import Relation, explain, is_compatible, relation
 from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError, UnregisteredValue
@@ -114,15 +114,12 @@ def _show(answer: Answer) -> None:
 
 
 def _print_json(answer: Answer, report: Report) -> None:
-    # an explanation is false where they are not compatible
-    fields = () if answer.explanation is None else answer.explanation.fields
     print_json({
         'uris': [given.as_json() for given in answer.uris],
         'compatible': answer.compatible,
         'relation': answer.relation and answer.relation.value,
         'example': answer.example,
-        'fields': [{'field': field.field, 'a': field.a, 'b': field.b,
-                    'compatible': field.is_compatible, 'in_common': field.shared}
-                   for field in fields],
+        # an explanation is false where they are not compatible
+        'fields': [] if answer.explanation is None else fields_as_json(answer.explanation),
         'errors': report.errors,
     })

@@ -6,9 +6,10 @@ import sys
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Callable
+    from typing import Callable, Dict, List
+    from rocon_uri.compatibility import Explanation
 
-__all__ = ['painter', 'print_json']
+__all__ = ['fields_as_json', 'painter', 'print_json']
 
 _CODES = {'bold': '1', 'faint': '2', 'red': '31', 'green': '32', 'cyan': '36'}
 
@@ -30,3 +31,10 @@ def print_json(answer: object) -> None:
     """Print an object, for people to read as well."""
     import json     # here, since most calls do not need it
     print(json.dumps(answer, indent=2))
+
+
+def fields_as_json(explanation: Explanation) -> List[Dict[str, object]]:
+    """What an explanation says of each field, as ``rocon_uri check --help`` describes it."""
+    return [{'field': field.field, 'a': field.a, 'b': field.b,
+             'compatible': field.is_compatible, 'in_common': field.shared}
+            for field in explanation.fields]

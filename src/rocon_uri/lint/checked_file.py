@@ -10,7 +10,8 @@ from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.sources.checked import CheckedMapping, Reading
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.sources.wording import (
+    did_you_mean, near_misses, of_same_package_or_name, quoted)
 from rocon_uri.sources.yaml_data import split_lines
 from rocon_uri.sources.yaml_source import read_file
 from rocon_uri.uri import parse
@@ -128,11 +129,9 @@ class CheckedFile(Reading):
         """
         if name in known:
             return True
-        package, _, own_name = name.partition('/')
-        alike = (other for other in known     # not all names, which may be very many
-                 if other.startswith(package + '/') or other.endswith('/' + own_name))
         self.error('%s %s does not exist%s' % (
-            what, quoted(name), self._suggestion(name, alike)), place)
+            what, quoted(name), self._suggestion(name, of_same_package_or_name(name, known))),
+            place)
         return False
 
     def check_remapped_names(self, kind: str, new_names: CheckedMapping,

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Iterable, List
+    from typing import Iterable, Iterator, List
 
-__all__ = ['did_you_mean', 'near_misses', 'printable', 'quoted', 'quoted_path', 'shown']
+__all__ = ['did_you_mean', 'near_misses', 'of_same_package_or_name', 'printable', 'quoted',
+           'quoted_path']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _NEAR_LENGTH = 64       # characters: a longer text is not a typing error, and would take long
@@ -71,6 +72,22 @@ def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
     by_lower = {candidate.lower(): candidate for candidate in sorted(candidates)}
     found = difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.7)
     return [by_lower[name] for name in found]
+
+
+def of_same_package_or_name(name: str, names: Iterable[str]) -> Iterator[str]:
+    """
+    The names, ``package/name``, that share a part with one: all of them may be too many to compare.
+
+    :param str name: what was written
+    :param names: iterable of str
+    :returns: iterator of str, for `near_misses`
+
+    >>> list(of_same_package_or_name('ours/Camra', ['ours/Camera', 'theirs/Base', 'theirs/Camra']))
+    ['ours/Camera', 'theirs/Camra']
+    """
+    package, _, own_name = name.partition('/')
+    return (other for other in names
+            if other.startswith(package + '/') or other.endswith('/' + own_name))
 
 
 def did_you_mean(suggestions: Iterable[str]) -> str:
