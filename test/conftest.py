@@ -53,6 +53,16 @@ def pytest_sessionfinish() -> None:
         raise RuntimeError('\n'.join(_unhandled))
 
 
+@pytest.fixture(scope='module')
+def master(tmp_path_factory):
+    """A master of the module's own, and the package test_nodes (`ros_master.Master`)."""
+    from ros_master import Master, make_test_nodes
+    folder = tmp_path_factory.mktemp('master')
+    make_test_nodes(folder / 'src')
+    with Master(folder, folder / 'src') as master:
+        yield master
+
+
 @pytest.fixture(scope='session')
 def _robot(tmp_path_factory):
     """The robot of all tests of a process, since that can be one node only."""

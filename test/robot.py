@@ -6,15 +6,17 @@ and what a client sees of it.
 """
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 from made_packages import make_package
-from ros_master import Master, ignores_sigterm, make_test_nodes, node
+from ros_master import Master, ignores, make_test_nodes, node
 from sources import SOURCE
 
 INTERFACE = 'name: %s\nspec_version: 1\nspec_type: interface\ninterface: {}\n'
@@ -252,6 +254,17 @@ class Server:
     def stop_capability(self, capability):
         return self.call('stop_capability', 'robot/' + capability).successful
 
+    @contextlib.contextmanager
+    def stopping(self, capability):
+        """Meanwhile a capability whose node takes its time is being stopped; the future of that."""
+        self.start_capability(capability)
+        self.wait_for(capability, 'running')
+        self.stubborn_node_pid(capability.lower())
+        with ThreadPoolExecutor(1) as pool:
+            stop = pool.submit(self.stop_capability, capability)
+            self.wait_for(capability, 'stopping')
+            yield stop
+
     def bond(self):
         """A client: the bond that it made with the server, formed."""
         import rospy
@@ -315,7 +328,7 @@ class Server:
     def stubborn_node_pid(self, name):
         """The same of a node that ignores SIGTERM, once it does so."""
         pid = self.node_pid(name)
-        eventually(lambda: ignores_sigterm(pid))
+        eventually(lambda: ignores(pid, signal.SIGTERM))
         return pid
 
 

@@ -83,14 +83,14 @@ class Master:
             return False
 
 
-def ignores_sigterm(pid):
-    """Does a process ignore SIGTERM by now? False for one that has ended."""
+def ignores(pid, *numbers):
+    """Does a process ignore these signals by now? False for one that has ended."""
     try:
         with open('/proc/%d/status' % pid) as status:
             mask = next(line.split()[1] for line in status if line.startswith('SigIgn'))
     except (OSError, StopIteration):
         return False
-    return bool(int(mask, 16) & (1 << signal.SIGTERM - 1))
+    return all(int(mask, 16) & (1 << number - 1) for number in numbers)
 
 
 def make_test_nodes(workspace):

@@ -17,19 +17,11 @@ from capabilities import launch_manager
 from capabilities.launch_manager import LaunchManager, which
 from capabilities.processes import ServerRun, find_marked, kill_marked
 from capabilities.specs.provider import CapabilityProvider
-from ros_master import Master, ignores_sigterm, make_test_nodes, node
+from ros_master import ignores, node
 
 pytest.importorskip('roslaunch', reason='ROS is not installed')
 
 PATIENCE = 60
-
-
-@pytest.fixture(scope='module')
-def master(tmp_path_factory):
-    folder = tmp_path_factory.mktemp('launch_manager')
-    make_test_nodes(folder / 'src')
-    with Master(folder, folder / 'src') as master:
-        yield master
 
 
 @pytest.fixture(autouse=True)
@@ -112,7 +104,7 @@ def processes_of(run):
 
 def wait_for_stubborn(run):
     """Wait until a node of a run ignores signals; before, they end it."""
-    wait_until(lambda: any('ignore' in command and ignores_sigterm(pid)
+    wait_until(lambda: any('ignore' in command and ignores(pid, signal.SIGTERM)
                            for pid, command in processes_of(run).items()))
 
 

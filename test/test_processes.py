@@ -9,6 +9,7 @@ import time
 from textwrap import dedent
 
 import pytest
+from ros_master import ignores
 
 from capabilities.processes import (
     MARK, ServerRun, Watcher, end_leftovers, end_marked, exit_code, exit_text, find_marked,
@@ -250,14 +251,7 @@ def test_nothing_outlives_a_killed_server(run, server, start):
 
 def test_the_watcher_ignores_the_signals_that_end_the_server(run, server):
     process, watcher = server
-    bits = (1 << signal.SIGINT - 1) | (1 << signal.SIGTERM - 1)
-
-    def ignored():
-        with open('/proc/%d/status' % watcher) as stream:
-            mask, = (line.split()[1] for line in stream if line.startswith('SigIgn'))
-        return int(mask, 16) & bits == bits
-
-    wait_until(ignored)
+    wait_until(lambda: ignores(watcher, signal.SIGINT, signal.SIGTERM))
     os.kill(watcher, signal.SIGINT)
     os.kill(watcher, signal.SIGTERM)
     process.kill()

@@ -20,14 +20,6 @@ PATIENCE = 60
 RUNNER = os.path.join(os.path.dirname(sys.modules[Report.__module__].__file__), 'runner.py')
 
 
-@pytest.fixture(scope='module')
-def master(tmp_path_factory):
-    folder = tmp_path_factory.mktemp('runner')
-    make_test_nodes(folder / 'src')
-    with Master(folder, folder / 'src') as master:
-        yield master
-
-
 class Runner:
     """A running runner: its reports, as they come."""
 

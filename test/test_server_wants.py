@@ -1,7 +1,7 @@
 """Who wants a capability, and what becomes of that: a capability runs while somebody wants it."""
 import os
-import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -68,37 +68,27 @@ def test_a_stop_drops_all_uses(server, two_clients):
 
 def test_nothing_waits_for_a_stubborn_node(server):
     """A8"""
-    server.start_capability('Stubborn')
-    server.stubborn_node_pid('stubborn')
-    server.wait_for('Stubborn', 'running')
-    stop = threading.Thread(target=server.stop_capability, args=('Stubborn',))
-    stop.start()
-    server.wait_for('Stubborn', 'stopping')
-    begin = time.monotonic()
-    assert server.start_capability('Base') == 0
-    took = time.monotonic() - begin
-    assert server.status('Stubborn').state == 'stopping', 'started after %s s' % took
-    server.stop_capability('Base')
-    assert server.status('Stubborn').state == 'stopping'
-    stop.join()
+    with server.stopping('Stubborn') as stop:
+        begin = time.monotonic()
+        assert server.start_capability('Base') == 0
+        took = time.monotonic() - begin
+        assert server.status('Stubborn').state == 'stopping', 'started after %s s' % took
+        server.stop_capability('Base')
+        assert server.status('Stubborn').state == 'stopping'
+        assert stop.result()
     assert server.states() == {}
 
 
 def test_a_use_while_it_stops_waits(server, two_clients):
     """A19"""
-    server.start_capability('Slow')
-    server.wait_for('Slow', 'running')
-    server.stubborn_node_pid('slow')
-    stop = threading.Thread(target=server.stop_capability, args=('Slow',))
-    stop.start()
-    server.wait_for('Slow', 'stopping')
-    assert server.start_capability('Slow') == 3
-    server.use('Slow', two_clients[0])
-    assert server.start_capability('Slow') == 3
-    assert [(status.state, status.uses, status.started) for status in server.statuses()] == [
-        ('stopping', 0, False), ('waiting', 1, False)]
-    assert server.call('get_remappings', 'robot/Slow').topics == []
-    stop.join()
+    with server.stopping('Slow') as stop:
+        assert server.start_capability('Slow') == 3
+        server.use('Slow', two_clients[0])
+        assert server.start_capability('Slow') == 3
+        assert [(status.state, status.uses, status.started) for status in server.statuses()] == [
+            ('stopping', 0, False), ('waiting', 1, False)]
+        assert server.call('get_remappings', 'robot/Slow').topics == []
+        assert stop.result()
     eventually(lambda: server.types('launched', 'terminated') == [
         ('launched', 'Slow'), ('terminated', 'Slow'), ('launched', 'Slow')])
     assert server.running() == ['Slow']
@@ -108,20 +98,15 @@ def test_a_use_while_it_stops_waits(server, two_clients):
 
 def test_a_use_that_waits_can_be_freed_and_stopped(server, two_clients):
     """A19"""
-    server.start_capability('Slow')
-    server.wait_for('Slow', 'running')
-    server.stubborn_node_pid('slow')
-    stop = threading.Thread(target=server.stop_capability, args=('Slow',))
-    stop.start()
-    server.wait_for('Slow', 'stopping')
-    server.use('Slow', two_clients[0])
-    server.free('Slow', two_clients[0])
-    assert 'because it is not running' in server.error(
-        'free_capability', 'robot/Slow', two_clients[0])
-    server.use('Slow', two_clients[0])
-    server.stop_capability('Slow')
-    assert server.states() == {}
-    stop.join()
+    with server.stopping('Slow') as stop:
+        server.use('Slow', two_clients[0])
+        server.free('Slow', two_clients[0])
+        assert 'because it is not running' in server.error(
+            'free_capability', 'robot/Slow', two_clients[0])
+        server.use('Slow', two_clients[0])
+        server.stop_capability('Slow')
+        assert server.states() == {}
+        assert stop.result()
     assert server.types('launched') == [('launched', 'Slow')]
 
 
@@ -163,12 +148,8 @@ def test_nothing_on_the_events_topic_changes_the_server(server):
 def test_many_clients_keep_their_bonds(server):
     """The heartbeats of all bonds go over one connection to each client."""
     import rospy
-    clients = []
-    begins = [threading.Thread(target=lambda: clients.append(server.bond())) for _ in range(20)]
-    for begin in begins:
-        begin.start()
-    for begin in begins:
-        begin.join()
+    with ThreadPoolExecutor(20) as pool:
+        clients = [bond.result() for bond in [pool.submit(server.bond) for _ in range(20)]]
     # longer than a bond lives without a heartbeat
     assert not clients[0].wait_until_broken(rospy.Duration(6))
     assert [bond.is_broken() for bond in clients] == 20 * [False]
@@ -223,11 +204,8 @@ def test_four_clients_at_random_leave_nothing(server):
                     errors.append(str(error))
         bond.shutdown()
 
-    clients = [threading.Thread(target=ask, args=(seed,)) for seed in range(4)]
-    for client in clients:
-        client.start()
-    for client in clients:
-        client.join()
+    with ThreadPoolExecutor(4) as pool:
+        list(pool.map(ask, range(4)))       # raises what one of them raises
     for name in names:
         server.error('stop_capability', 'robot/' + name)
     eventually(lambda: server.states() == {})
