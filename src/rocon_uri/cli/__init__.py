@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 
 __all__ = ['main']
 
+#: Each is a module of this package whose docstring is its help. Its ``add_arguments(parser)`` adds
+#: what it takes; its ``main(args)`` does it and returns the exit status.
 VERBS = ('parse', 'check', 'match', 'fields', 'rules', 'platform', 'apps', 'specs',
          'capabilities')
 

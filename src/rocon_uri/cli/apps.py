@@ -53,7 +53,6 @@ _REASONS_SHOWN = 20     # of one app; a person has enough by then
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     parser.add_argument('--robot', metavar='URI',
                         help='what the robot is (default: this machine, as platform prints it)')
     add_package_path(parser)
@@ -79,7 +78,6 @@ def _reason_id(text: str) -> str:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     escape_unencodable()
     report = PackageReport(args.json)
     exported = workspace(args, report)

@@ -83,13 +83,11 @@ def _read_any(text: str) -> GivenURI:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     parser.add_argument('a', metavar='A', help='a URI, as what an app runs on')
     parser.add_argument('b', metavar='B', help='another one, as a robot')
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     report = Report(args.json)
     answer = Answer(args.a, args.b, report)
     if args.json:

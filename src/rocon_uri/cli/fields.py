@@ -29,13 +29,11 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     parser.add_argument('field', metavar='FIELD', nargs='?', choices=VOCABULARY_FIELDS,
                         help='one of %s; all of them where left out' % ', '.join(VOCABULARY_FIELDS))
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     fields = [complete().field(name)
               for name in ([args.field] if args.field else VOCABULARY_FIELDS)]
     if args.json:

@@ -42,7 +42,6 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     parser.add_argument('requests', metavar='REQUEST', nargs='*',
                         help='a URI, as what an app runs on')
     parser.add_argument('--requests-in', metavar='FILE',
@@ -53,7 +52,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     if not args.requests and args.requests_in is None:
         say('rocon_uri match: error: give a REQUEST, or a file of them with --requests-in')
         return 2

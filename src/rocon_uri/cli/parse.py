@@ -26,12 +26,10 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     parser.add_argument('uris', metavar='URI', nargs='+', help='what to read')
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     report = Report(args.json)
     legal: List[GivenURI] = []
     for text in args.uris:

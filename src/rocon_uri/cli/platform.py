@@ -33,7 +33,6 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     parser.add_argument('--robot-type', metavar='TYPE', default=default_robot_type,
                         help='the hardware platform (default: %(default)s)')
     parser.add_argument('--robot-name', metavar='NAME',
@@ -41,7 +40,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     report = Report(args.json)
     uris = []
     try:

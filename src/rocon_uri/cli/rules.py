@@ -23,11 +23,10 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes: nothing."""
+    """It takes nothing."""
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     text = ebnf({field: complete().field(field) for field in VOCABULARY_FIELDS})
     if args.json:
         print_json({'ebnf': text, 'errors': []})

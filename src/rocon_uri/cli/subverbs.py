@@ -1,4 +1,4 @@
-"""Verbs that have verbs of their own, each a module of the package of the verb."""
+"""Verbs that have verbs of their own, each a module as those in `rocon_uri.cli`."""
 from __future__ import annotations
 
 import argparse

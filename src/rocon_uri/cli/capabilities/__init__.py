@@ -30,12 +30,10 @@ _VERBS = ('list', 'status', 'plan', 'start', 'stop', 'watch')
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes: the one of its own."""
     add_subverbs(parser, __name__, _VERBS, add_server)
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     report = PackageReport(args.json)
     try:
         status: int = args.verb_main(RunningServer(args.server), args)

@@ -24,11 +24,10 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes: nothing of its own."""
+    """It takes nothing."""
 
 
 def main(server: RunningServer, args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     capabilities = list(_capabilities(server))
     if args.json:
         print_json({'capabilities': capabilities, 'errors': []})

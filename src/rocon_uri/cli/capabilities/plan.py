@@ -34,14 +34,12 @@ def add_capability(parser: argparse.ArgumentParser) -> None:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     add_capability(parser)
     parser.add_argument('provider', metavar='PROVIDER', nargs='?', default='',
                         help='package/name (default: the default provider)')
 
 
 def main(server: RunningServer, args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     plan = server.call('plan_capability', args.capability, args.provider)
     steps = [{'capability': capability, 'provider': provider, 'running': running}
              for capability, provider, running in zip(plan.capabilities, plan.providers,

@@ -29,12 +29,10 @@ _RESULTS = ('started', 'starting already', 'runs already', 'is being stopped')
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     plan.add_arguments(parser)
 
 
 def main(server: RunningServer, args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     result = _RESULTS[server.call('start_capability', args.capability, args.provider).result]
     if args.json:
         print_json({'result': result, 'errors': []})

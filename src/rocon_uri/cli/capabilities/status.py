@@ -33,11 +33,10 @@ _STYLES = {'running': 'green', 'failed': 'red', 'degraded': 'red'}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes: nothing of its own."""
+    """It takes nothing."""
 
 
 def main(server: RunningServer, args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     status = server.call('get_status').status
     capabilities = [as_json(capability) for capability in status.capabilities]
     if args.json:

@@ -25,12 +25,10 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     add_capability(parser)
 
 
 def main(server: RunningServer, args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     stopped = server.call('stop_capability', args.capability).successful
     result = 'stopped' if stopped else 'not stopped'
     if args.json:

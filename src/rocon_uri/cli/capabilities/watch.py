@@ -35,11 +35,10 @@ _PATIENCE = 2.0     # seconds without a connection to the server, after which it
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes: nothing of its own."""
+    """It takes nothing."""
 
 
 def main(server: RunningServer, args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     import rospy
     from capabilities.msg import CapabilityEvent
     rospy.init_node('capabilities_watch', anonymous=True, disable_signals=True)

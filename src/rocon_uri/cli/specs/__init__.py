@@ -24,11 +24,9 @@ _VERBS = ('list', 'show', 'check', 'graph')
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes: the one of its own."""
     add_subverbs(parser, __name__, _VERBS)
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     status: int = args.verb_main(args)
     return status

@@ -39,7 +39,6 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     parser.add_argument('paths', metavar='PATH', nargs='*',
                         help='a package, or a folder with packages below it (default: all on '
                         'the package path)')
@@ -52,7 +51,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     # here, since they load catkin_pkg and YAML, and a verb can be asked for help without
     from rocon_uri.sources.packages import find_packages
     from rocon_uri.lint import ERROR, check_package_index

@@ -38,7 +38,6 @@ _PICTURES = ('.svg', '.png')
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     add_package_path(parser)
     parser.add_argument('--output', metavar='FILE',
                         help='a file that ends in .dot, .svg or .png (default: standard output)')
@@ -46,7 +45,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     from rocon_uri.spec_graph import dot_text, spec_graph   # here, since the others need it not
     escape_unencodable()
     report = PackageReport(args.json)

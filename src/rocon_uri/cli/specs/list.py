@@ -29,12 +29,10 @@ _HEADINGS = {'interface': 'interfaces', 'semantic_interface': 'semantic interfac
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     add_package_path(parser)
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     escape_unencodable()
     report = PackageReport(args.json)
     index = workspace(args, report).spec_index

@@ -35,13 +35,11 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the verb takes."""
     parser.add_argument('name', metavar='NAME', help='package/name of a spec')
     add_package_path(parser)
 
 
 def main(args: argparse.Namespace) -> int:
-    """Do it, and return the exit status."""
     escape_unencodable()
     report = PackageReport(args.json)
     index = workspace(args, report).spec_index
