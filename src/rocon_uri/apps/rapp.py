@@ -1,5 +1,5 @@
 """
-A rapp (robot app) as a ``.rapp`` file describes it: `Rapp`, and how one is read.
+A rapp (robot app) as its ``.rapp`` file describes it, and how such a file is read.
 
 ::
 
@@ -139,10 +139,9 @@ class Rapp(NamedTuple):
         'Walk'
         """
         missing = [key for key in INHERITED_KEYS if getattr(self, key) is None]
-        files = dict(self.files)
-        files.update((key, parent.files[key]) for key in missing if key in parent.files)
-        inherited = {key: getattr(parent, key) for key in missing}
-        return self._replace(files=files, **inherited)
+        files = {key: parent.files[key] for key in missing if key in parent.files}
+        return self._replace(files={**self.files, **files},
+                             **{key: getattr(parent, key) for key in missing})
 
     def position(self, key: str) -> Place:
         """
@@ -174,7 +173,7 @@ def rapp_from_string(content: Union[str, bytes], name: str, path: str = '<string
     """
     Read one rapp.
 
-    :param content: what its file holds, str or bytes
+    :param content: what its file contains, str or bytes
     :param str name: what the rapp is called, ``package/name``
     :param str path: its file, which errors name and other files are relative to
     :returns: Rapp, which has not inherited anything yet

@@ -16,7 +16,7 @@ Its name consists of those of the package and the file: ``our_rapps/dance``.
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
 from rocon_uri.apps.rapp import (
     InvalidRapp, Rapp, RequiredCapability, rapp_from_file_path, rapp_from_string)
@@ -94,29 +94,24 @@ def rapps_from_rapp_file_index(
     for package, paths in rapp_file_index.items():
         for path in paths:
             try:
-                rapp = _rapp_of_package(package, path)
-                if rapp.name in rapps:
-                    raise InvalidRapp('duplicate rapp %s, the first is in %s' % (
-                        quoted(rapp.name), quoted_path(rapps[rapp.name].path)), path)
-                rapps[rapp.name] = rapp
+                rapp = rapp_from_file_path(path, rapp_name(package, path))
+                first = rapps.setdefault(rapp.name, rapp)
+                if first is not rapp:
+                    errors.append(InvalidRapp('duplicate rapp %s, the first is in %s' % (
+                        quoted(rapp.name), quoted_path(first.path)), path))
             except InvalidRapp as error:
                 errors.append(error)
+            except OSError as error:
+                errors.append(InvalidRapp('cannot be read: %s' % (error.strerror or error), path))
     return rapps, errors
-
-
-def _rapp_of_package(package: str, path: str) -> Rapp:
-    try:
-        return rapp_from_file_path(path, rapp_name(package, path))
-    except OSError as error:
-        raise InvalidRapp('cannot be read: %s' % (error.strerror or error), path) from None
 
 
 def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[InvalidRapp]]:
     """
     Rapps with what they inherit from their parents, through all generations.
 
-    A parent that is not among them is an error of the rapp that names it, and a cycle is one of
-    each rapp on it. Rapps that descend from those inherit what there is.
+    A parent that is not among them is an error of the rapp that names it, and a cycle is an error
+    of each rapp in it. Rapps that descend from such rapps inherit what there is.
 
     :param rapps: iterable of Rapp
     :returns: (dict of `Rapp` by name, list of `InvalidRapp`)
@@ -133,9 +128,9 @@ def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[Inval
             ancestor = by_name.get(ancestor.parent_name or '')
         if ancestor is not None and ancestor.name in line:
             cycle = list(line)[list(line).index(ancestor.name):]
-            for index, member in enumerate(cycle):
-                errors[member] = _cycle_error(by_name[member], cycle, index)
-                related[member] = by_name[member]
+            for index, name in enumerate(cycle):
+                errors[name] = _cycle_error(by_name[name], cycle[index + 1:] + cycle[:index])
+                related[name] = by_name[name]
         for name, descendant in reversed(list(line.items())):
             parent = related.get(descendant.parent_name or '')
             if parent is None and not descendant.is_ancestor:
@@ -150,14 +145,12 @@ def _missing_parent_error(rapp: Rapp, by_name: Mapping[str, Rapp]) -> InvalidRap
     parent_name = rapp.parent_name or ''
     near = near_misses(parent_name, of_same_package_or_name(parent_name, by_name))
     return InvalidRapp('parent_name %s does not exist or cannot be read%s' % (
-        quoted(parent_name), did_you_mean(near)),
-        rapp.path, *rapp.position('parent_name'))
+        quoted(parent_name), did_you_mean(near)), rapp.path, *rapp.position('parent_name'))
 
 
-def _cycle_error(rapp: Rapp, cycle: Sequence[str], index: int) -> InvalidRapp:
-    ancestors = [cycle[(index + step) % len(cycle)] for step in range(1, min(len(cycle), 6))]
-    if len(cycle) > 6:
-        ancestors.append('...')
+def _cycle_error(rapp: Rapp, ancestors: List[str]) -> InvalidRapp:
+    if len(ancestors) > 5:
+        ancestors[5:] = ['...']
     return InvalidRapp('rapp %s is its own ancestor: %s' % (
-        quoted(rapp.name), ' -> '.join([rapp.name] + ancestors + [rapp.name])),
+        quoted(rapp.name), ' -> '.join([rapp.name, *ancestors, rapp.name])),
         rapp.path, *rapp.position('parent_name'))

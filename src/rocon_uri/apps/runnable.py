@@ -1,9 +1,9 @@
 """
 Can a rapp run on a robot, and if not, why not?
 
-A rapp runs where it is an implementation, where its compatibility string meets the robot's URI, and
-where its launch file and each capability that it requires can be started. The verdict has
-all reasons against it, not only the first.
+A rapp runs if it is an implementation, if its compatibility string matches the robot's URI, and if
+its launch file and each capability that it requires can be started. The verdict has all reasons
+against it, not only the first.
 """
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from capabilities.spec_index import SpecIndex
 from rocon_uri.apps.rapp import Rapp
 from rocon_uri.compatibility import Explanation, explain
 from rocon_uri.exceptions import RoconURIValueError
-from rocon_uri.sources.launch_file import LaunchFault, LaunchFiles
+from rocon_uri.sources.launch_file import LaunchFiles
 from rocon_uri.uri import RoconURI, parse
 from rocon_uri.vocabulary import Vocabulary
 
@@ -49,34 +49,23 @@ class Reason(NamedTuple):
     """
     One thing that is against running a rapp. Its text is one line.
 
-    >>> Reason(ReasonKind.VIRTUAL, 'it is virtual: it has no launch').id
-    'virtual'
+    >>> print(Reason(ReasonKind.VIRTUAL, 'virtual', 'it is virtual: it has no launch'))
+    it is virtual: it has no launch
     """
 
     #: what it is about
     kind: ReasonKind
-    #: what is wrong with the rapp or the platform; '' if a launch file or a capability is the
-    #: reason, of which ``launch`` or ``fault`` has the text
+    #: which kind of thing it is, one of `REASON_IDS`
+    id: str
+    #: what is wrong; '' if a capability is the reason, since ``fault`` has the text
     problem: str = ''
-    #: of the rapp and the robot, if the platform is the reason and could be compared; its text is a
-    #: table of the fields
+    #: of the rapp and the robot, if their platforms were compared; its text is a table of fields
     explanation: Optional[Explanation] = None
     #: if a capability is the reason
     fault: Optional[Fault] = None
-    #: if the rapp's own launch file is the reason
-    launch: Optional[LaunchFault] = None
-
-    @property
-    def id(self) -> str:
-        """Which kind of thing it is, one of `REASON_IDS` (str)."""
-        if self.fault is not None:
-            return self.fault.kind.value
-        return str(self.kind.value) if self.launch is None else self.launch.kind
 
     def __str__(self) -> str:
-        if self.fault is not None:
-            return self.fault.reason
-        return self.problem if self.launch is None else str(self.launch)
+        return self.problem if self.fault is None else self.fault.reason
 
 
 class Verdict(NamedTuple):
@@ -134,44 +123,40 @@ def runnable(rapp: Rapp, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
     """
     if isinstance(robot_uri, str):
         parse(robot_uri, Vocabulary.open())     # a fault in it is not the rapp's
-    if launch_files is None:
-        launch_files = LaunchFiles()
-    reasons = [*_platform_reasons(rapp, robot_uri), *_launch_reasons(rapp, launch_files)]
+    launch_files = launch_files or LaunchFiles()
     plan = plan_for_capabilities(
         spec_index, [capability.name for capability in rapp.required_capabilities], defaults,
         launch_files)
-    reasons += map(_capability_reason, plan.faults)
+    reasons = (*_platform_reasons(rapp, robot_uri), *_launch_reasons(rapp, launch_files),
+               *(Reason(ReasonKind.CAPABILITY if fault.is_of_the_capability else
+                        ReasonKind.DEPENDENCY, fault.kind.value, fault=fault)
+                 for fault in plan.faults))
     return Verdict(rapp, tuple(reason for reason in reasons if reason.id not in ignore),
                    tuple(plan.order))
 
 
 def _launch_reasons(rapp: Rapp, launch_files: LaunchFiles) -> Iterator[Reason]:
     if rapp.launch is not None:
-        file = launch_files.look_at(rapp.launch, os.path.dirname(rapp.path))
-        if file.fault is not None:
-            yield Reason(ReasonKind.LAUNCH, launch=file.fault)
-
-
-def _capability_reason(fault: Fault) -> Reason:
-    return Reason(ReasonKind.CAPABILITY if fault.is_of_the_capability else ReasonKind.DEPENDENCY,
-                  fault=fault)
+        fault = launch_files.look_at(rapp.launch, os.path.dirname(rapp.path)).fault
+        if fault is not None:
+            yield Reason(ReasonKind.LAUNCH, fault.kind, str(fault))
 
 
 def _platform_reasons(rapp: Rapp, robot_uri: Union[str, RoconURI]) -> Iterator[Reason]:
     if not rapp.is_implementation:
         lacks = ' and no '.join(key for key in ('compatibility', 'launch')
                              if getattr(rapp, key) is None)
-        yield Reason(ReasonKind.VIRTUAL, 'it is virtual: it has no %s' % lacks)
+        yield Reason(ReasonKind.VIRTUAL, 'virtual', 'it is virtual: it has no %s' % lacks)
     if rapp.compatibility is None:
         return
     vocabulary = None if isinstance(robot_uri, str) else robot_uri.vocabulary
     try:
         explanation = explain(parse(rapp.compatibility, vocabulary), robot_uri)
     except RoconURIValueError as error:
-        yield Reason(ReasonKind.PLATFORM, str(error))
+        yield Reason(ReasonKind.PLATFORM, 'platform', str(error))
         return
     if not explanation:
-        wrong = ['%s is %s' % (comparison.field, comparison.b)
-                 for comparison in explanation.fields if not comparison.is_compatible]
-        yield Reason(ReasonKind.PLATFORM, "'%s' does not include this robot: %s" % (
-            explanation.a.short, ', '.join(wrong)), explanation)
+        wrong = ', '.join('%s is %s' % (comparison.field, comparison.b)
+                          for comparison in explanation.fields if not comparison.is_compatible)
+        yield Reason(ReasonKind.PLATFORM, 'platform', "'%s' does not include this robot: %s" % (
+            explanation.a.short, wrong), explanation)

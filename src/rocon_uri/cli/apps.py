@@ -27,12 +27,11 @@ exist; apps that do not run are included only with --all
 """
 from __future__ import annotations
 
-from argparse import ArgumentTypeError
+import argparse
 
 from rocon_uri.cli.display import fields_as_json, painter, print_json
 from rocon_uri.cli.given import GivenURI
-from rocon_uri.cli.packages import (
-    PackageReport, add_package_path, escape_unencodable, printable, shortened, workspace)
+from rocon_uri.cli.packages import add_package_path, printable, shortened, workspace
 from rocon_uri.cli.running import add_running, what_runs
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
@@ -42,9 +41,9 @@ from rocon_uri.uri import parse
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    import argparse
     from typing import Any, Dict, List, Optional
     from rocon_uri.apps.runnable import Reason, Verdict
+    from rocon_uri.cli.packages import PackageReport
     from rocon_uri.vocabulary import Vocabulary
 
 __all__ = ['add_arguments', 'main']
@@ -71,16 +70,14 @@ def _reason_id(text: str) -> str:
     """The id of a reason; argparse reports any other text."""
     from rocon_uri.apps.runnable import REASON_IDS  # here, since it loads YAML
     if text not in REASON_IDS:
-        raise ArgumentTypeError('%s is not the ID of a reason%s' % (
+        raise argparse.ArgumentTypeError('%s is not the ID of a reason%s' % (
             quoted(text), did_you_mean(near_misses(text, REASON_IDS))
             or ', expected one of %s' % ', '.join(REASON_IDS)))
     return text
 
 
 def main(args: argparse.Namespace) -> int:
-    escape_unencodable()
-    report = PackageReport(args.json)
-    exported = workspace(args, report)
+    report, exported = workspace(args)
     robot = _read_robot(args.robot, exported.vocabulary, report)
     defaults = _read_defaults(args.defaults, report)
     if robot is None or defaults is None:
@@ -140,8 +137,7 @@ def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool,
     runs = [verdict for verdict in verdicts if verdict]
     virtual = [verdict for verdict in verdicts
                if not verdict and not verdict.rapp.is_implementation]
-    others = [verdict for verdict in verdicts
-              if not verdict and verdict.rapp.is_implementation]
+    others = [verdict for verdict in verdicts if not verdict and verdict.rapp.is_implementation]
     width = max((len(printable(verdict.rapp.name)) for verdict in runs + others), default=0)
     print('%s can run %d of %d apps%s' % (
         paint(printable(robot.text), 'bold'), len(runs), len(runs) + len(others),

@@ -10,7 +10,7 @@ from rocon_uri.sources.wording import quoted_path
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import List, Optional, Sequence
+    from typing import List, Optional, Sequence, Tuple
 
     from rocon_uri.sources.located import Fault
     from rocon_uri.workspace import Workspace
@@ -98,20 +98,21 @@ def package_path(args: argparse.Namespace, report: PackageReport,
     return folders
 
 
-def workspace(args: argparse.Namespace, report: PackageReport) -> Workspace:
+def workspace(args: argparse.Namespace) -> Tuple[PackageReport, Workspace]:
     """
     All that the packages on the package path export.
 
     :param args: those of the verb, which took `add_package_path`
-    :param report: gets their faults
-    :returns: `rocon_uri.workspace.Workspace`
+    :returns: (`PackageReport`, which has their faults, `rocon_uri.workspace.Workspace`)
     """
     from rocon_uri.workspace import read_workspace  # here, since it loads catkin_pkg and YAML
+    escape_unencodable()
     quiet_loggers()
+    report = PackageReport(args.json)
     found = read_workspace(package_path(args, report))
     for fault in found.faults:
         report.bad_file(fault)
-    return found
+    return report, found
 
 
 def quiet_loggers() -> None:

@@ -5,11 +5,10 @@ Examples:
   rocon_uri specs graph > specs.dot
   rocon_uri specs graph --output specs.svg
 
-Writes the language of graphviz. For a FILE that ends in .svg or .png, graphviz
-has to be installed. Blue boxes are interfaces, green ones semantic interfaces,
-yellow ellipses providers, the others apps (those that are only parents dashed);
-red is what is named and not there. With --running, what runs has a thick green
-outline.
+Writes the language of graphviz. A FILE that ends in .svg or .png needs graphviz.
+Blue boxes are interfaces, green ones semantic interfaces, yellow ellipses
+providers, the others apps (virtual ones dashed); what is named but does not exist
+is red. With --running, what runs has a thick green outline.
 
 Exit status: 0; 2 if the picture could not be made, or a folder or a file was bad,
 though the others are drawn
@@ -19,22 +18,16 @@ picture if there is a FILE; an id is the name, with a # before that of an app
 """
 from __future__ import annotations
 
+import argparse
 import os
 import subprocess
 
 from rocon_uri.cli.display import print_json
-from rocon_uri.cli.packages import (
-    PackageReport, add_package_path, escape_unencodable, workspace)
+from rocon_uri.cli.packages import PackageReport, add_package_path, workspace
 from rocon_uri.cli.running import add_running, what_runs
 from rocon_uri.sources.wording import quoted_path
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import argparse
-
 __all__ = ['add_arguments', 'main']
-
-_PICTURES = ('.svg', '.png')
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -45,10 +38,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    from rocon_uri.spec_graph import dot_text, spec_graph   # here, since the others need it not
-    escape_unencodable()
-    report = PackageReport(args.json)
-    exported = workspace(args, report)
+    from rocon_uri.spec_graph import dot_text, spec_graph   # here, since the other verbs do not
+    report, exported = workspace(args)
     graph = spec_graph(exported.spec_index, exported.rapps)
     running = what_runs(args, report) or {}
     text = dot_text(graph, {*running, *running.values()})
@@ -70,22 +61,22 @@ def main(args: argparse.Namespace) -> int:
 def _write(text: str, path: str, report: PackageReport) -> None:
     extension = os.path.splitext(path)[1].lower()
     content = text.encode('utf-8', 'backslashreplace')
-    if extension in _PICTURES:
+    if extension in ('.svg', '.png'):
         _draw(content, extension[1:], path, report)
-    elif extension == '.dot':
+    elif extension != '.dot':
+        report.bad('%s ends in none of .dot, .svg and .png' % quoted_path(path))
+    else:
         try:
             with open(path, 'wb') as file:
                 file.write(content)
         except OSError as error:
             report.bad('cannot write %s: %s' % (quoted_path(path), error.strerror))
-    else:
-        report.bad('%s ends in none of .dot, .svg and .png' % quoted_path(path))
 
 
 def _draw(content: bytes, picture_format: str, path: str, report: PackageReport) -> None:
-    command = ['dot', '-T' + picture_format, '-o', os.path.abspath(path)]
     try:
-        done = subprocess.run(command, input=content, stderr=subprocess.PIPE)
+        done = subprocess.run(['dot', '-T' + picture_format, '-o', os.path.abspath(path)],
+                              input=content, stderr=subprocess.PIPE)
     except FileNotFoundError:
         report.bad("a picture needs the program 'dot' of graphviz, which is not installed; "
                    'write a .dot file, or install graphviz')

@@ -11,21 +11,12 @@ what a spec does not have
 """
 from __future__ import annotations
 
+import argparse
+
 from rocon_uri.cli.display import painter, print_json
-from rocon_uri.cli.packages import (
-    PackageReport, add_package_path, escape_unencodable, shortened, workspace)
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import argparse
-    from typing import Dict
-
-    from capabilities.spec_index import Spec
+from rocon_uri.cli.packages import add_package_path, shortened, workspace
 
 __all__ = ['add_arguments', 'main']
-
-_HEADINGS = {'interface': 'interfaces', 'semantic_interface': 'semantic interfaces',
-             'provider': 'providers'}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,37 +24,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    escape_unencodable()
-    report = PackageReport(args.json)
-    index = workspace(args, report).spec_index
+    report, exported = workspace(args)
+    specs = {spec.name: {
+        'name': spec.name, 'spec_type': spec.spec_type, 'description': spec.description,
+        'file': spec.file_name, 'implements': getattr(spec, 'implements', None),
+        'redefines': getattr(spec, 'redefines', None),
+    } for spec in exported.spec_index.specs.values()}
     if args.json:
-        print_json({'specs': [_as_json(spec) for spec in index.specs.values()],
-                    'errors': report.errors})
-    else:
-        _show(index.specs)
-    return report.status
-
-
-def _show(specs: Dict[str, Spec]) -> None:
+        print_json({'specs': list(specs.values()), 'errors': report.errors})
+        return report.status
     paint = painter()
     width = max(map(len, specs), default=0)
-    for spec_type, heading in _HEADINGS.items():
-        found = [spec for spec in specs.values() if spec.spec_type == spec_type]
+    for spec_type in 'interface', 'semantic_interface', 'provider':
+        found = {name: spec for name, spec in specs.items() if spec['spec_type'] == spec_type}
         if found:
-            print(paint(heading, 'bold'))
-        for spec in found:
-            print('  %s%s  %s' % (paint(spec.name, 'cyan'), ' ' * (width - len(spec.name)),
-                                  shortened(_about(spec))))
-
-
-def _about(spec: Spec) -> str:
-    for key in 'implements', 'redefines':
-        if hasattr(spec, key):
-            return '%s %s' % (key, getattr(spec, key))
-    return str(spec.description)
-
-
-def _as_json(spec: Spec) -> Dict[str, object]:
-    return {'name': spec.name, 'spec_type': spec.spec_type, 'description': spec.description,
-            'file': spec.file_name, 'implements': getattr(spec, 'implements', None),
-            'redefines': getattr(spec, 'redefines', None)}
+            print(paint('%ss' % spec_type.replace('_', ' '), 'bold'))
+        for name, spec in found.items():
+            about = next(('%s %s' % (key, spec[key]) for key in ('implements', 'redefines')
+                          if spec[key] is not None), spec['description'])
+            print('  %s%s  %s' % (paint(name, 'cyan'), ' ' * (width - len(name)),
+                                  shortened(str(about))))
+    return report.status

@@ -18,8 +18,7 @@ not exist is null
 from __future__ import annotations
 
 from rocon_uri.cli.display import painter, print_json
-from rocon_uri.cli.packages import (
-    PackageReport, add_package_path, escape_unencodable, printable, workspace)
+from rocon_uri.cli.packages import add_package_path, printable, workspace
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
@@ -40,9 +39,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    escape_unencodable()
-    report = PackageReport(args.json)
-    index = workspace(args, report).spec_index
+    report, exported = workspace(args)
+    index = exported.spec_index
     spec = index.specs.get(args.name)
     if spec is None:
         meant = _meant(args.name, index.names)
@@ -72,16 +70,7 @@ def _meant(name: str, names: List[str]) -> List[str]:
 
 
 class Shown:
-    """
-    A spec, and what the other specs say about it.
-
-    - ``resolved``: the interface that clients of a semantic interface see, or None
-    - ``provider``: the spec, if it is a provider, or None
-    - ``interface``: that one, or the interface that the spec itself is, or None
-    - ``providers``: list of str, those of an interface or semantic interface
-    - ``start_order``: list of str, what is to be started for a provider, itself last
-    - ``faults``: list of str, what prevents that
-    """
+    """A spec, and what the other specs say about it."""
 
     def __init__(self, spec: Optional[Spec], index: SpecIndex) -> None:
         from capabilities.planning.providers import plan_for_provider    # here, since it loads YAML
@@ -89,14 +78,16 @@ class Shown:
         from capabilities.specs.interface import CapabilityInterface
         from capabilities.specs.provider import CapabilityProvider
         from capabilities.specs.semantic_interface import SemanticCapabilityInterface
+        #: the interface that clients of a semantic interface see
         self.resolved: Optional[CapabilityInterface] = None
+        #: what to start for a provider, itself last, and what prevents that
         self.start_order: List[str] = []
         self.faults: List[str] = []
+        #: those of an interface or semantic interface
         self.providers = [] if spec is None else index.providers_of(spec.name)
         if isinstance(spec, CapabilityProvider):
             plan = plan_for_provider(index, spec.name)
-            self.start_order = plan.order
-            self.faults = [str(fault) for fault in plan.faults]
+            self.start_order, self.faults = plan.order, list(map(str, plan.faults))
         elif isinstance(spec, SemanticCapabilityInterface):
             try:
                 self.resolved = spec.resolve(index.interfaces[spec.redefines])
