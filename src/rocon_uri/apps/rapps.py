@@ -23,7 +23,7 @@ from rocon_uri.apps.rapp import (
 from rocon_uri.apps.runnable import Reason, ReasonKind, Verdict, runnable
 from rocon_uri.sources.packages import Package, as_package
 from rocon_uri.sources.wording import (
-    did_you_mean, near_misses, of_same_package_or_name, quoted, quoted_path)
+    did_you_mean, near_names, quoted, quoted_path)
 
 if TYPE_CHECKING:
     from catkin_pkg.package import Package as CatkinPackage
@@ -143,9 +143,9 @@ def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[Inval
 
 def _missing_parent_error(rapp: Rapp, by_name: Mapping[str, Rapp]) -> InvalidRapp:
     parent_name = rapp.parent_name or ''
-    near = near_misses(parent_name, of_same_package_or_name(parent_name, by_name))
     return InvalidRapp('parent_name %s does not exist or cannot be read%s' % (
-        quoted(parent_name), did_you_mean(near)), rapp.path, *rapp.position('parent_name'))
+        quoted(parent_name), did_you_mean(near_names(parent_name, by_name))),
+        rapp.path, *rapp.position('parent_name'))
 
 
 def _cycle_error(rapp: Rapp, ancestors: List[str]) -> InvalidRapp:

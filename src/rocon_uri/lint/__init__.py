@@ -1,8 +1,8 @@
 """
 What is wrong with the specs, rapps and interactions of packages, for continuous integration.
 
-It goes further than reading them: names, types, the files that they refer to, and whether what they
-name exists.
+It checks more than reading them does: names, types, and whether the files and all else that they
+name exist.
 
 >>> [str(finding) for finding in check_packages(['examples/workspace'])]
 []
@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
-from typing import Collection, Iterable, List, Mapping
+from pathlib import PurePath
+from typing import AbstractSet, Iterable, List, Mapping
 
 from rocon_uri.lint.checked_file import is_inside
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
@@ -30,11 +31,10 @@ def check_packages(paths: Iterable[str], package_path: Iterable[str] = ()) -> Li
     """
     Check all that some packages export, and the ``.interactions`` files in them.
 
-    :param paths: iterable of str, the folders below which the packages are that are checked
-    :param package_path: iterable of str, the folders below which the packages are that they may
-        refer to, beside each other
-    :returns: list of `Finding`, by file and line; files have paths relative to the working
-        directory if they are below it, else absolute ones
+    :param paths: iterable of str, the folders with the packages to check
+    :param package_path: iterable of str, the folders with other packages that these may refer to
+    :returns: list of `Finding`, by file and line; the path of a file below the working directory
+        is relative to it, others are absolute
     """
     faults: List[PackageError] = []
     checked = find_packages(paths, faults)
@@ -44,10 +44,10 @@ def check_packages(paths: Iterable[str], package_path: Iterable[str] = ()) -> Li
 def check_package_index(checked: Mapping[str, Package], others: Mapping[str, Package],
                         faults: Iterable[Fault] = ()) -> List[Finding]:
     """
-    The same for packages that were found already.
+    Check packages that were found already.
 
     :param checked: dict of `rocon_uri.sources.packages.Package` by name, those to check
-    :param others: dict of the same, those that they may refer to
+    :param others: dict of the same, those that these may refer to
     :param faults: the errors of `rocon_uri.sources.packages.find_packages`
     :returns: list of `Finding`, as `check_packages` returns it
 
@@ -75,14 +75,10 @@ def check_package_index(checked: Mapping[str, Package], others: Mapping[str, Pac
     return _sorted(findings)
 
 
-def _is_in_one_of(path: str, folders: Collection[str]) -> bool:
+def _is_in_one_of(path: str, folders: AbstractSet[str]) -> bool:
     """Is this a file in one of the folders? A missing file is a fault of the file that names it."""
-    if not os.path.isfile(path):
-        return False
-    folder = os.path.dirname(os.path.normpath(path))
-    while folder not in folders and folder != os.path.dirname(folder):
-        folder = os.path.dirname(folder)
-    return folder in folders
+    return os.path.isfile(path) and not folders.isdisjoint(
+        map(str, PurePath(os.path.normpath(path)).parents))
 
 
 def _path(fault: Fault) -> str:

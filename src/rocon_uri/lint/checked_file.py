@@ -1,17 +1,17 @@
-"""One file that is checked, its findings, and the checks that all kinds of files share."""
+"""A file that is checked, its findings, and the checks that several kinds of files share."""
 from __future__ import annotations
 
 import os
-from typing import Iterable, List, Mapping, Optional, Sequence
+from typing import Callable, Iterable, List, Mapping, Optional, Sequence
 
 from capabilities.specs.interface import CapabilityInterface
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.sources.checked import CheckedMapping, Reading
+from rocon_uri.sources.launch_file import MISSING, LaunchFiles
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name
-from rocon_uri.sources.wording import (
-    did_you_mean, near_misses, of_same_package_or_name, quoted)
+from rocon_uri.sources.wording import did_you_mean, near_misses, near_names, quoted
 from rocon_uri.sources.yaml_data import split_lines
 from rocon_uri.sources.yaml_source import read_file
 from rocon_uri.uri import parse
@@ -41,12 +41,12 @@ def is_inside(path: str, folder: str) -> bool:
 
 class CheckedFile(Reading):
     """
-    A file of a package, and what is found in it: it is read to the end, whatever is wrong.
+    A file of a package, which is read to the end whatever is wrong with it.
 
     :param str path: the file
-    :param str package_folder: where the package is that it belongs to
+    :param str package_folder: the folder of its package
 
-    ``findings`` is a list of `Finding`.
+    ``findings`` is a list of `Finding`: those in this file and in the launch files that it names.
     """
 
     def __init__(self, path: str, package_folder: str) -> None:
@@ -57,16 +57,16 @@ class CheckedFile(Reading):
         self._lines: Optional[List[str]] = None
 
     def add(self, severity: str, problem: str, place: Place = NOWHERE) -> None:
-        """Note something, `ERROR` or `WARNING`."""
+        """Note a finding with a severity, `ERROR` or `WARNING`."""
         self.findings.append(Finding(file_name=self.path, line=place[0], column=place[1],
                                      severity=severity, problem=problem))
 
     def error(self, problem: str, place: Place = NOWHERE) -> None:
-        """Note something that will not work, or not as it says."""
+        """Note what will not work, or not as the file says."""
         self.add(ERROR, problem, place)
 
     def warn(self, problem: str, place: Place = NOWHERE) -> None:
-        """Note something that works, and is probably not what was meant."""
+        """Note what works, but is probably not what was meant."""
         self.add(WARNING, problem, place)
 
     def refuse(self, fault: LocatedError) -> None:
@@ -74,11 +74,11 @@ class CheckedFile(Reading):
         self.error(fault.problem, fault.place)
 
     def expectation(self, found: object, known: Sequence[str]) -> str:
-        """The end of an error: what was expected; empty if there are many findings already."""
+        """The end of an error: what was expected. It is empty after many findings."""
         return super().expectation(found, known) if self._has_few_findings() else ''
 
     def read(self) -> object:
-        """What the file holds, read as YAML; None if it cannot be read, which is noted."""
+        """The file's content, read as YAML; None where that fails, which is noted."""
         try:
             content = read_file(self.path)
         except OSError as error:
@@ -87,26 +87,25 @@ class CheckedFile(Reading):
         return self.data(content)
 
     def check_ros_name(self, name: str, what: str, place: Place) -> None:
-        """The name of a topic, a service and the like must be one that the ROS graph allows."""
+        """Check that the ROS graph allows the name of a topic, a service or the like."""
         if not name or not is_legal_name(name):
             self.error('%s %s is not a legal ROS name' % (what, quoted(name)), place)
 
     def check_type(self, type_name: str, what: str, place: Place) -> None:
-        """The type of a topic, a service or an action is written package/Type."""
+        """Check that the type of a topic, a service or an action is written package/Type."""
         parts = type_name.split('/')
         if len(parts) != 2 or not all(map(is_legal_base_name, parts)):
-            # the form of ROS 2
-            meant = ('%s/%s' % (parts[0], parts[2]) if len(parts) == 3
-                     and parts[1] in ('msg', 'srv', 'action') else None)
+            is_of_ros_2 = len(parts) == 3 and parts[1] in ('msg', 'srv', 'action')
             self.error('type %s of %s is not of the form package/Type%s' % (
-                quoted(type_name), what, did_you_mean([meant] if meant else [])), place)
+                quoted(type_name), what,
+                did_you_mean(['%s/%s' % (parts[0], parts[2])] if is_of_ros_2 else [])), place)
 
     def check_file(self, name: str, what: str, place: Place, *folders: str,
                    if_missing: str = ERROR) -> Optional[str]:
         """
-        A file that this one names has to be there, in one of the folders, inside the package.
+        Check that a file that this one names is in one of the folders, inside the package.
 
-        :returns: str, its path; None if it does not exist
+        :returns: str, its path; None if it is not
         """
         paths = [os.path.normpath(os.path.join(folder, name)) for folder in folders]
         inside = [path for path in paths if is_inside(path, self.package_folder)]
@@ -121,27 +120,37 @@ class CheckedFile(Reading):
             self.error('%s %s is outside the package' % (what, quoted(name)), place)
         return None
 
-    def check_exists(self, name: str, what: str, known: Mapping[str, object], place: Place) -> bool:
+    def check_launch_file(self, name: str, place: Place, launch_files: LaunchFiles,
+                          if_in_package: str = ERROR) -> None:
         """
-        What this file names, ``package/name``, has to exist.
+        Check that roslaunch can start a launch file, by the facts that verdicts on apps stand on.
 
-        :returns: bool
+        :param str name: the launch file, as this file names it
+        :param str if_in_package: the severity where it exists relative to the package instead
         """
-        if name in known:
-            return True
-        self.error('%s %s does not exist%s' % (
-            what, quoted(name), self._suggestion(name, of_same_package_or_name(name, known))),
-            place)
-        return False
+        fault = launch_files.look_at(name, os.path.dirname(os.path.abspath(self.path))).fault
+        if fault is not None and fault.line is not None:
+            self.findings.append(Finding(os.path.normpath(fault.path), fault.line, fault.column,
+                                         ERROR, 'launch file %s' % fault.problem))
+        elif fault is not None:
+            is_in_package = fault.kind == MISSING and os.path.isfile(
+                os.path.join(self.package_folder, name))
+            self.add(if_in_package if is_in_package else ERROR, str(fault), place)
+
+    def check_exists(self, name: str, what: str, known: Mapping[str, object], place: Place) -> bool:
+        """Check that what this file names, ``package/name``, exists; return whether it does."""
+        if name not in known:
+            self.error('%s %s does not exist%s' % (
+                what, quoted(name), self._suggestion(name, known, near_names)), place)
+        return name in known
 
     def check_remapped_names(self, kind: str, new_names: CheckedMapping,
                              interface: CapabilityInterface) -> None:
         """
-        Only a name that the interface has can be remapped, and only to a legal one.
+        Check that an interface has the names that are remapped, and that the new ones are legal.
 
         :param str kind: ``'topics'``, ``'services'``, ``'actions'`` or ``'parameters'``
-        :param new_names: the new names by name
-        :param interface: the one that has the names
+        :param new_names: the new name by each name of the interface
         """
         names = getattr(interface, kind)
         for name in new_names:
@@ -154,7 +163,7 @@ class CheckedFile(Reading):
             self.check_ros_name(new_names.get(name), 'new name', new_names.value_place(name))
 
     def check_compatibility(self, text: str, vocabulary: Vocabulary, place: Place) -> None:
-        """A compatibility string has to be a rocon URI, and should not be read in another way."""
+        """Check that a compatibility string is a rocon URI; warn if ``//`` is read as ``/``."""
         try:
             uri = parse(text, vocabulary)
         except RoconURIValueError as error:
@@ -168,14 +177,15 @@ class CheckedFile(Reading):
                       'concert' % (quoted(text), quoted(uri.short), uri.hardware_platform),
                       self._place_in_text(text, 0, place))
 
-    def _suggestion(self, text: str, candidates: Iterable[str]) -> str:
-        return did_you_mean(near_misses(text, candidates)) if self._has_few_findings() else ''
+    def _suggestion(self, text: str, candidates: Iterable[str],
+                    find: Callable[[str, Iterable[str]], List[str]] = near_misses) -> str:
+        return did_you_mean(find(text, candidates)) if self._has_few_findings() else ''
 
     def _has_few_findings(self) -> bool:
         return len(self.findings) < _SUGGESTING
 
     def _place_in_text(self, text: str, index: int, place: Place) -> Place:
-        """Where a character of a text is; the text begins at the place, maybe after a quote."""
+        """Where a character of a text is that begins at the place, or after a quote there."""
         line, column = place
         if line is None or column is None:
             return place

@@ -1,9 +1,9 @@
 """
 Checks ``.interactions`` files, which say what people can do with a robot, and on which devices.
 
-No export names these files, and they have several forms: a list of interactions; a mapping with
-such lists as ``interactions`` and ``pairings``; a list of groups, each with such lists by these or
-by other keys.
+No export names these files. They have several forms: a list of interactions; a mapping with a list
+of ``interactions`` and one of ``pairings``; a list of groups that have such lists, under these keys
+or others.
 """
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from typing import Dict, Iterator, List, Tuple
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import Finding
 from rocon_uri.sources.checked import CheckedMapping
-from rocon_uri.sources.located import Place
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 from rocon_uri.workspace import Workspace
 
@@ -36,7 +35,7 @@ def interactions_files(package_folder: str) -> Iterator[str]:
     """
     The ``.interactions`` files of a package, without those of a package within it.
 
-    :param str package_folder: where the package is
+    :param str package_folder: the folder of the package
     :returns: iterator of str, their paths, in the order of their names
     """
     for folder, subfolders, files in os.walk(package_folder):
@@ -55,7 +54,7 @@ def check_interactions_file(path: str, package_folder: str,
     Check one file.
 
     :param str path: the file
-    :param str package_folder: where its package is
+    :param str package_folder: the folder of its package
     :param Workspace workspace: what it may refer to
     :returns: list of `Finding`
     """
@@ -115,23 +114,18 @@ def _check_entry(kind: str, entry: CheckedMapping, file: CheckedFile,
     entry.warn_of_unknown(_KEYS[kind])
     for key in _REQUIRED_KEYS[kind]:
         entry.required(key)
-    for key in ('name', 'compatibility', 'namespace', 'rapp'):
-        value = entry.text(key)
-        if value is not None:
-            _check_text(key, value, entry.value_place(key), file, workspace)
+    texts = {key: entry.text(key) for key in ('name', 'compatibility', 'namespace', 'rapp')}
+    for key, value in texts.items():
+        place = entry.value_place(key)
+        if value is not None and key == 'compatibility':
+            file.check_compatibility(value, workspace.vocabulary, place)
+        elif value is not None and key == 'namespace':
+            file.check_ros_name(value, key, place)
+        elif value is not None and key == 'rapp':
+            file.check_exists(value, key, workspace.rapps, place)
     for remapping in file.mappings(entry.sequence('remappings'), 'a remapping'):
         remapping.warn_of_unknown(('remap_from', 'remap_to'))
         for key in ('remap_from', 'remap_to'):
             name = remapping.required_text(key)
             if name:
                 file.check_ros_name(name, key, remapping.value_place(key))
-
-
-def _check_text(key: str, value: str, place: Place, file: CheckedFile,
-                workspace: Workspace) -> None:
-    if key == 'compatibility':
-        file.check_compatibility(value, workspace.vocabulary, place)
-    elif key == 'namespace':
-        file.check_ros_name(value, 'namespace', place)
-    elif key == 'rapp':
-        file.check_exists(value, 'rapp', workspace.rapps, place)

@@ -1,4 +1,4 @@
-"""What can be wrong with a ``package.xml`` that names its package, and with its exports."""
+"""Checks a ``package.xml`` that names its package, and its exports."""
 from __future__ import annotations
 
 from typing import List
@@ -16,9 +16,8 @@ _FILE_EXPORTS = EXPORTS + ('rocon_app',)    # those whose text is the path of a 
 
 def check_manifest(package: Package) -> List[Finding]:
     """
-    Check that catkin takes a package, and that each file that it exports is there, and once.
+    Check that catkin accepts a package, and that each exported file exists and is exported once.
 
-    :param Package package: which
     :returns: list of `Finding`
     """
     file = CheckedFile(package.manifest, package.folder)

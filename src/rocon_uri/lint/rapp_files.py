@@ -8,7 +8,6 @@ from rocon_uri.apps.rapp import GROUPS_OF_REMAPPINGS, KEYS, TYPES_OF_REMAPPINGS,
 from rocon_uri.grammar import is_rocon_app
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
-from rocon_uri.lint.launch_files import check_launch_file
 from rocon_uri.sources.checked import CheckedMapping
 from rocon_uri.sources.wording import quoted
 from rocon_uri.workspace import Workspace
@@ -54,8 +53,7 @@ def check_rapp(rapp: Rapp, package_folder: str, workspace: Workspace) -> List[Fi
             if path is not None and key.startswith('public_'):
                 findings += _check_public_file(key, path, package_folder)
     if rapp.launch is not None:
-        findings += check_launch_file(rapp.launch, rapp.position('launch'), file,
-                                      workspace.launch_files)
+        file.check_launch_file(rapp.launch, rapp.position('launch'), workspace.launch_files)
     for item in file.mappings(source.sequence('required_capabilities'), 'a required capability'):
         _check_required_capability(item, file, workspace)
     return findings + file.findings

@@ -9,7 +9,6 @@ from capabilities.specs.provider import CapabilityProvider, DependsOnRelationshi
 from capabilities.specs.semantic_interface import SemanticCapabilityInterface
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import WARNING, Finding
-from rocon_uri.lint.launch_files import check_launch_file
 from rocon_uri.sources.checked import CheckedMapping
 from rocon_uri.sources.wording import quoted
 from rocon_uri.sources.yaml_data import key_place, value_place
@@ -27,7 +26,7 @@ def check_spec(spec: Spec, path: str, package_folder: str,
 
     :param spec: an interface, a semantic interface or a provider that is in the index
     :param str path: the file that it was read from
-    :param str package_folder: where the package is that exports it
+    :param str package_folder: the folder of the package that exports it
     :param Workspace workspace: what it may refer to
     :returns: list of `Finding`
     """
@@ -80,9 +79,8 @@ def _check_provider(spec: CapabilityProvider, source: CheckedMapping, file: Chec
                     workspace: Workspace) -> None:
     if spec.launch_file is not None:
         # The capability server looks beside the spec; people also write it from the package.
-        file.findings += check_launch_file(
-            spec.launch_file, source.value_place('launch_file'), file, workspace.launch_files,
-            if_in_package=WARNING)
+        file.check_launch_file(spec.launch_file, source.value_place('launch_file'),
+                               workspace.launch_files, if_in_package=WARNING)
     interface = workspace.interface(spec.implements)
     if interface is not None:
         kinds = source.mapping('remappings')

@@ -5,10 +5,9 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Iterable, Iterator, List
+    from typing import Iterable, List
 
-__all__ = ['did_you_mean', 'near_misses', 'of_same_package_or_name', 'printable', 'quoted',
-           'quoted_path']
+__all__ = ['did_you_mean', 'near_misses', 'near_names', 'printable', 'quoted', 'quoted_path']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _NEAR_LENGTH = 64       # characters: a longer text is not a typing error, and would take long
@@ -74,20 +73,18 @@ def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
     return [by_lower[name] for name in found]
 
 
-def of_same_package_or_name(name: str, names: Iterable[str]) -> Iterator[str]:
+def near_names(name: str, names: Iterable[str]) -> List[str]:
     """
-    The names, ``package/name``, that share a part with one: all of them may be too many to compare.
+    The `near_misses` among names of the form ``package/name`` that share a part with one.
 
-    :param str name: what was written
-    :param names: iterable of str
-    :returns: iterator of str, for `near_misses`
+    Comparing it with all names could take too long.
 
-    >>> list(of_same_package_or_name('ours/Camra', ['ours/Camera', 'theirs/Base', 'theirs/Camra']))
+    >>> near_names('ours/Camra', ['ours/Camera', 'theirs/Base', 'theirs/Camra', 'a/Camera'])
     ['ours/Camera', 'theirs/Camra']
     """
     package, _, own_name = name.partition('/')
-    return (other for other in names
-            if other.startswith(package + '/') or other.endswith('/' + own_name))
+    return near_misses(name, (other for other in names if other.startswith(package + '/')
+                              or other.endswith('/' + own_name)))
 
 
 def did_you_mean(suggestions: Iterable[str]) -> str:

@@ -54,7 +54,7 @@ def main(args: argparse.Namespace) -> int:
     # here, since they load catkin_pkg and YAML, and a verb can be asked for help without
     from rocon_uri.sources.packages import find_packages
     from rocon_uri.lint import ERROR, check_package_index
-    from rocon_uri.lint.junit import junit_text
+    from rocon_uri.lint.finding import junit_text
     escape_unencodable()
     quiet_loggers()
     report = PackageReport(args.json)
@@ -83,7 +83,7 @@ def main(args: argparse.Namespace) -> int:
 
 def _given_packages(paths: List[str], report: PackageReport
                     ) -> Tuple[Dict[str, Package], List[PackageError]]:
-    """The packages in some folders, which should have some, and what is wrong with them."""
+    """The packages in some folders, and their faults. A folder that has neither is reported."""
     from rocon_uri.sources.packages import find_packages      # see main
     packages: Dict[str, Package] = {}
     faults: List[PackageError] = []
@@ -93,8 +93,8 @@ def _given_packages(paths: List[str], report: PackageReport
         if not found and not new_faults:
             report.bad('%s %s' % (quoted_path(path), 'has no package in it' if os.path.isdir(path)
                                   else 'is not a directory'))
-        packages.update((name, package) for name, package in found.items()
-                        if name not in packages)
+        for name, package in found.items():
+            packages.setdefault(name, package)
         faults += new_faults
     return packages, faults
 
