@@ -36,6 +36,7 @@ time.sleep(10000)
 SERVER = '''\
 import faulthandler, signal
 faulthandler.register(signal.SIGUSR1)
+signal.signal(signal.SIGINT, signal.SIG_DFL)    # as in the script of the node
 from capabilities.server import main
 raise SystemExit(main())
 '''
@@ -158,9 +159,10 @@ class Server:
     :param Robot robot: where it runs
     :param str name: the name of its node, of which each test has one of its own
     :param dict parameters: its private parameters
+    :param str program: what Python runs
     """
 
-    def __init__(self, robot, name, parameters=None, arguments=()):
+    def __init__(self, robot, name, parameters=None, arguments=(), program=SERVER):
         import rospy
         from capabilities.msg import CapabilityEvent, CapabilityStatuses
         self.robot, self.name = robot, '/' + name
@@ -174,12 +176,13 @@ class Server:
             rospy.Subscriber(self.name + '/status', CapabilityStatuses, self._keep_status)]
         self.process = None
         self.arguments = arguments
+        self.program = program
 
     def start(self, preexec_fn=None):
         """Start the process, and wait for nothing."""
         with open(self.log, 'ab') as log:
             self.process = subprocess.Popen(
-                [sys.executable, '-c', SERVER, str(self.robot.workspace),
+                [sys.executable, '-c', self.program, str(self.robot.workspace),
                  '__name:=' + self.name.rpartition('/')[2], *self.arguments],
                 env=dict(self.robot.server_environment,
                          ROS_NAMESPACE=self.name.rpartition('/')[0] or '/'),
@@ -370,8 +373,8 @@ class Robot:
                 thread.join(1)
         self.master.__exit__(*error)
 
-    def server(self, parameters=None, arguments=(), name=None):
+    def server(self, parameters=None, arguments=(), name=None, program=SERVER):
         """A server, of a name that no other has unless it is given, which is not started yet."""
-        self.servers.append(
-            Server(self, name or 'server_%d' % (len(self.servers) + 1), parameters, arguments))
+        name = name or 'server_%d' % (len(self.servers) + 1)
+        self.servers.append(Server(self, name, parameters, arguments, program))
         return self.servers[-1]

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from robot import eventually
+from robot import PATIENCE, eventually
 
 WITHOUT = {'nodelet_manager': False}
 ENDS = int(os.environ.get('CAPABILITIES_ENDS', '5'))    # in the long run 50
@@ -81,6 +81,30 @@ def test_a_signal_before_anything_was_started_ends_it(robot):
         time.sleep(1.5 * number / ENDS)
         server.end()
         eventually(lambda server=server: server.processes() == {})
+
+
+@pytest.mark.parametrize('function', ['rospy.init_node', 'rosgraph.Master.getSystemState'])
+def test_a_signal_is_not_lost_in_a_library(robot, function):
+    """A9: rospy has places where any exception is dropped, that of a signal too"""
+    server = robot.server(program='''\
+import os, rosgraph, rospy, signal
+from capabilities.server import main
+
+function = %(function)s
+def function_that_drops_exceptions(*arguments, **keywords):
+    try:
+        os.kill(os.getpid(), signal.SIGINT)
+    except BaseException:
+        pass
+    return function(*arguments, **keywords)
+
+%(function)s = function_that_drops_exceptions
+raise SystemExit(main())
+''' % {'function': function})
+    server.start()
+    assert server.process.wait(PATIENCE) == 0
+    assert 'ready' not in server.log.read_text()
+    eventually(lambda: server.processes() == {})
 
 
 def test_a_killed_server_leaves_no_orphans(robot):

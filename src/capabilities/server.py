@@ -92,9 +92,9 @@ class CapabilityServer:
 
     def __handle_signal(self, number: int, frame: object) -> None:
         """Have `spin` end; at once (by SystemExit) as long as nothing was started."""
-        if not self.__has_started:
-            raise SystemExit(0)
         self.must_end(0)
+        if not self.__has_started:
+            raise SystemExit(0)     # rospy has places where it is lost: `__serve` looks again
 
     def must_end(self, exit_status: int) -> None:
         """Have `spin` end, and return at once; for signal handlers too."""
@@ -219,8 +219,15 @@ def main(sysargv: Optional[List[str]] = None) -> int:
     :raises SystemExit: with a text, if no package paths are given; with status 255 if the
         configuration is at fault
     """
-    signal.signal(signal.SIGINT, _leave)        # where it was inherited as ignored, too
-    signal.signal(signal.SIGTERM, _leave)
+    told_to_end: List[int] = []
+
+    def leave(number: int, frame: object) -> None:
+        """End at once, while nothing has been started."""
+        told_to_end.append(number)
+        raise SystemExit(0)     # rospy has places where it is lost: it is looked at again below
+
+    signal.signal(signal.SIGINT, leave)         # where it was inherited as ignored, too
+    signal.signal(signal.SIGTERM, leave)
     arguments = create_parser().parse_args(
         rospy.myargv(sys.argv if sysargv is None else [sys.argv[0], *sysargv])[1:])
     package_path = arguments.package_path or os.environ.get('ROS_PACKAGE_PATH', '')
@@ -240,6 +247,8 @@ def main(sysargv: Optional[List[str]] = None) -> int:
         _log_faults(error)
         return _finish(_BAD_CONFIGURATION)
     server.handle_signals()
+    if told_to_end:
+        return _finish(0)
     try:
         status = server.spin()
     except SystemExit as end:
@@ -257,11 +266,6 @@ def _accept_many() -> None:
         rospy.impl.tcpros_base.init_tcpros_server().tcp_ros_server.server_sock.listen(socket.SOMAXCONN)
     except (AttributeError, OSError):       # another version of rospy: leave it
         pass
-
-
-def _leave(number: int, frame: object) -> None:
-    """End at once on a signal, while nothing has been started."""
-    raise SystemExit(0)
 
 
 def _finish(status: int) -> int:
