@@ -1,7 +1,7 @@
 """
-A list of alternatives such as ``pr2|kobuki``: what it says, and what is wrong with one.
+Reading a list of alternatives such as ``pr2|kobuki``.
 
-This is where it is decided what a ``*`` in a list means: it makes the whole list ``*``.
+This module decides what a ``*`` in a list means: it makes the whole list ``*``.
 """
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ def read_alternatives(field: str, text: str, vocabulary: Vocabulary) -> Tuple[st
     :param str field: the name of the field
     :param str text: the text of the field, decoded; '' for any
     :param Vocabulary vocabulary: the registered values
-    :returns: tuple of str, in the order of the text and without repetitions; ``('*',)`` where one
-        of them is ``*``, though the others must be registered all the same
+    :returns: tuple of str, in the order of the text, without duplicates; ``('*',)`` if one of
+        them is ``*``, though the others must be registered all the same
     :raises UnregisteredValue: for a value that the vocabulary does not have
-    :raises RoconURIValueError: for an empty alternative, for too many, and for what an open
-        vocabulary refuses too; ``span`` is where in ``text`` the fault is
+    :raises RoconURIValueError: for an empty alternative, for too many, and for a value that an
+        open vocabulary refuses; ``span`` is where in ``text`` the fault is
 
     >>> everything = Vocabulary.bundled()
     >>> read_alternatives('hardware_platform', 'pr2|kobuki|pr2', everything)

@@ -1,8 +1,8 @@
 """
-Two rocon URIs compared: how the sets of resources that they match are related, and why.
+How the sets of resources that two rocon URIs match are related, and why.
 
-A URI matches a set of resources, the product of the sets that its fields and its concert match.
-The app says what runs, not where it can run, and is not compared.
+Such a set is the product of the sets that the fields and the concert match. The app is not
+compared: it says what runs, not where it can run.
 """
 from __future__ import annotations
 
@@ -65,9 +65,9 @@ class FieldComparison(namedtuple('FieldComparison', 'field a b is_compatible sha
     What an `Explanation` says about one field.
 
     ``field`` is its name (str), ``a`` and ``b`` are its texts in the first and the second URI
-    (str). ``is_compatible`` (bool) says whether the two sets overlap; it is None where another
-    field decides and the patterns are too complex. ``shared`` (str) is what is in both: the text
-    of a field, for two patterns a name, '' for nothing.
+    (str). ``is_compatible`` (bool) says whether the two sets overlap; it is None if the patterns
+    are too complex to compare but another field decides. ``shared`` (str) is what both match: the
+    text of a field, a name for two patterns, '' for nothing.
     """
 
     __slots__ = ()
@@ -84,10 +84,8 @@ class Explanation:
     """
     Whether two URIs are compatible, field by field; it is true if they are.
 
-    :param RoconURI a: the first
-    :param RoconURI b: the second
-
-    ``a`` and ``b`` are attributes.
+    :param RoconURI a: the first, an attribute too
+    :param RoconURI b: the second, an attribute too
     """
 
     __slots__ = ('a', 'b', 'fields')
@@ -136,13 +134,9 @@ class Explanation:
 
 def explain(a: Resource, b: Resource) -> Explanation:
     """
-    Why two URIs are compatible, or why they are not.
+    Why two URIs are compatible, or why they are not; it takes and raises what `relation` does.
 
-    :param a: RoconURI, or str that is parsed
-    :param b: RoconURI, or str that is parsed
     :returns: `Explanation`, whose text is a table of the fields
-    :raises RoconURIValueError: for a text that is not legal
-    :raises PatternTooComplex: if the two names take too much work to decide
 
     >>> print(explain('rocon:/kobuki/arm_*', 'rocon:/pr2/*_left/noetic'))
     not compatible

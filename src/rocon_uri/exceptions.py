@@ -1,8 +1,7 @@
 """
 Errors: a text that is not a rocon URI, and two patterns that are too complex to compare.
 
-The text of an error is one line that a log can hold, whatever the input was. What the text is made
-of is in the attributes.
+The text of an error is one line fit for a log, whatever the input was. Its parts are attributes.
 """
 from __future__ import annotations
 
@@ -31,8 +30,7 @@ class RoconURIValueError(ValueError):
         returns one and is called only when the suggestions are looked at
     :param str advice: what to do about it, one clause
 
-    The attributes have the names of the parameters, ``problem``, ``uri``, ``field``, ``value``,
-    ``span`` and ``advice``.
+    All but the candidates are attributes of the same name.
 
     >>> error = RoconURIValueError("name '3bob' is not legal", 'rocon:/pr2/3bob', 'name', '3bob',
     ...                            (11, 15))
@@ -60,13 +58,7 @@ class RoconURIValueError(ValueError):
         return near_misses(self.value, candidates)
 
     def within(self, uri: str, span: Tuple[int, int]) -> 'RoconURIValueError':
-        """
-        The same error, placed in a larger text.
-
-        :param str uri: the larger text
-        :param span: (int, int), where in it the fault is
-        :returns: an error of the same class
-        """
+        """An error of the same class, placed at a span of a larger text."""
         return type(self)(self.problem, uri, self.field, self.value, span, self._candidates,
                           self.advice)
 
@@ -115,15 +107,15 @@ class RoconURIValueError(ValueError):
 
 
 class UnregisteredValue(RoconURIValueError):
-    """A value that the vocabulary does not know; a more complete one may."""
+    """A value that the vocabulary does not have; a more complete one may."""
 
 
 class PatternTooComplex(RoconURIValueError):
     """
     Two name patterns that take more work to compare than is allowed.
 
-    Each of them can still be matched with names. Where one request was compared with many
-    resources, ``undecided`` is the list of those with which it could not be; else it is empty.
+    Each of them can still be matched with names. If one request was compared with many resources,
+    ``undecided`` lists those with which it could not be compared; else it is empty.
     """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:

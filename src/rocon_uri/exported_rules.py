@@ -1,12 +1,11 @@
 """
-The files of rules that packages export or ROCON_URI_RULES names, read into data.
+The rules files that packages export or ROCON_URI_RULES names, read into data.
 
-A package adds values to the vocabulary with a file of rules and, in its package.xml::
+A package adds values to the vocabulary with a rules file and, in its package.xml::
 
     <export><rocon_uri rules="${prefix}/rules/our_robots.yaml"/></export>
 
-A faulty file adds nothing; the others still count. `rocon_uri.vocabulary` makes a
-vocabulary of what is read here.
+`rocon_uri.vocabulary` makes a vocabulary of the data.
 """
 from __future__ import annotations
 
@@ -23,11 +22,11 @@ __all__ = ['read_rules_file', 'rules_paths', 'rules_paths_of_machine']
 
 def read_rules_file(path: str) -> object:
     """
-    Read one file of rules.
+    Read one rules file.
 
     :param str path: a YAML or JSON file
-    :returns: what it holds, as `rocon_uri.sources.yaml_source.load_file` returns it; whether that
-        fits a vocabulary is not checked yet
+    :returns: its data, as `rocon_uri.sources.yaml_source.load_file` returns it; whether it fits a
+        vocabulary is not checked
     :raises YamlError: `rocon_uri.sources.yaml_data.YamlError`, if it is not YAML or has a
         duplicate key
     :raises OSError: if it cannot be read
@@ -41,21 +40,13 @@ def read_rules_file(path: str) -> object:
 
 
 def rules_paths(packages: Mapping[str, Package]) -> List[str]:
-    """
-    The files of rules that packages export, whether they exist or not.
-
-    :param packages: as `rocon_uri.sources.packages.find_packages` returns them
-    :returns: list of str, absolute paths, in the order of the packages and their exports
-
-    >>> rules_paths({})
-    []
-    """
+    """The absolute paths of the rules files that packages export, whether they exist or not."""
     return [path for package in packages.values() for path in package.files('rocon_uri', 'rules')]
 
 
 def rules_paths_of_machine() -> Tuple[List[str], List[PackageError]]:
     """
-    The files that the packages on this machine's package path export, then ROCON_URI_RULES.
+    The rules files that the packages on this machine's package path export, then ROCON_URI_RULES.
 
     :returns: (list of str, the errors of `rocon_uri.sources.packages.find_packages`)
     """
@@ -68,7 +59,7 @@ def rules_paths_of_machine() -> Tuple[List[str], List[PackageError]]:
 def _ros_paths() -> List[str]:
     """The folders with packages below them."""
     try:
-        import rospkg       # not there without ROS; it knows what a distribution adds
+        import rospkg       # missing without ROS; it knows what a distribution adds
     except ImportError:
         return os.environ.get('ROS_PACKAGE_PATH', '').split(os.pathsep)
     return list(rospkg.RosPack().get_ros_paths())

@@ -1,8 +1,4 @@
-"""
-One field of a rocon URI: a set of values, or of names.
-
-`read_values` reads the fields whose values are registered.
-"""
+"""One field of a rocon URI: a set of values, or of names."""
 from __future__ import annotations
 
 from rocon_uri.alternatives import read_alternatives
@@ -12,7 +8,7 @@ from rocon_uri.vocabulary import Vocabulary, completed
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Dict, FrozenSet, Iterator, List, Optional, Tuple
+    from typing import FrozenSet, Iterator, List, Optional, Tuple
     from rocon_uri.name_pattern import NamePattern
 
 __all__ = ['Field', 'NameField', 'UnregisteredValue', 'ValuesField', 'read_values']
@@ -39,9 +35,10 @@ class Field:
     (True, True, True)
     """
 
-    __slots__ = ('_string',)
+    __slots__ = ('_string', '_key')
 
     _string: str
+    _key: object        # what two equal fields have in common
 
     @property
     def string(self) -> str:
@@ -76,17 +73,23 @@ class Field:
         """
         return self.list
 
-    def __setattr__(self, name: str, value: object) -> None:
+    def __setattr__(self, name: str, value: object = None) -> None:
         raise AttributeError('a field of a rocon URI cannot be changed')
 
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError('a field of a rocon URI cannot be changed')
+    __delattr__ = __setattr__
 
-    def __copy__(self) -> 'Field':
+    def __copy__(self, memo: object = None) -> 'Field':
         return self
 
-    def __deepcopy__(self, memo: Dict[int, object]) -> 'Field':
-        return self
+    __deepcopy__ = __copy__
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Field):
+            return NotImplemented
+        return self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
 
     def __str__(self) -> str:
         return self._string
@@ -104,22 +107,19 @@ class ValuesField(Field):
     :param Vocabulary vocabulary: what they are read with
     """
 
-    __slots__ = ('field_name', 'alternatives', 'mask', 'others', 'vocabulary', '_key')
+    __slots__ = ('field_name', 'alternatives', 'mask', 'others', 'vocabulary')
 
     field_name: str
     alternatives: Tuple[str, ...]
     mask: int
     others: FrozenSet[str]      # values that only an open vocabulary accepts: they have no bits
     vocabulary: Vocabulary
-    _key: FrozenSet[str]
 
     def __init__(self, name: str, alternatives: Tuple[str, ...], vocabulary: Vocabulary) -> None:
         known = vocabulary.field(name)
-        mask = 0
+        mask = _ANY_MASK if alternatives == ('*',) else 0
         for value in alternatives:
-            if value == '*':
-                mask = _ANY_MASK
-            elif value in known:
+            if value in known:
                 mask |= known.mask(value)
         others = frozenset(value for value in alternatives if value != '*' and value not in known)
         for attribute, content in (
@@ -134,20 +134,15 @@ class ValuesField(Field):
     def __contains__(self, value: object) -> bool:
         if not isinstance(value, str):
             return False
-        vocabulary = self.vocabulary
-        known = vocabulary.field(self.field_name)
+        field, known = self, self.vocabulary.field(self.field_name)
         if value not in known or known.children(value):     # of others, the groups do not change
-            vocabulary = completed(vocabulary)
-            known = vocabulary.field(self.field_name)
+            vocabulary = completed(self.vocabulary)
+            if vocabulary is not self.vocabulary:
+                field = read_values(self.field_name, self._string, vocabulary)
+                known = vocabulary.field(self.field_name)
         if value not in known:
             return value in self.others or self.is_any and is_legal_base_name(value)
-        return not known.mask(value) & ~self.in_vocabulary(vocabulary).mask
-
-    def in_vocabulary(self, vocabulary: Vocabulary) -> 'ValuesField':
-        """The same field read with another vocabulary, or UnregisteredValue."""
-        if vocabulary is self.vocabulary:
-            return self
-        return read_values(self.field_name, self._string, vocabulary)
+        return not known.mask(value) & ~field.mask
 
     def expand(self) -> List[str]:
         vocabulary = completed(self.vocabulary)
@@ -175,14 +170,6 @@ class ValuesField(Field):
         return '|'.join(known.covering(self.mask & other.mask)
                         + sorted(self.others & other.others))
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, ValuesField):
-            return NotImplemented
-        return self._key == other._key
-
-    def __hash__(self) -> int:
-        return hash(self._key)
-
     def __reduce__(self) -> Tuple[object, ...]:
         return _read_again, (self.field_name, self._string, self.vocabulary)
 
@@ -200,8 +187,8 @@ class NameField(Field):
     pattern: NamePattern
 
     def __init__(self, string: str, pattern: NamePattern) -> None:
-        object.__setattr__(self, '_string', string)
-        object.__setattr__(self, 'pattern', pattern)
+        for attribute, content in ('_string', string), ('_key', string), ('pattern', pattern):
+            object.__setattr__(self, attribute, content)
 
     def __contains__(self, value: object) -> bool:
         return isinstance(value, str) and self.pattern.matches(value)
@@ -220,27 +207,15 @@ class NameField(Field):
             return self.string if other.is_any else other.string
         return self.pattern.example(other.pattern) or ''
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, NameField):
-            return NotImplemented
-        return self._string == other._string
-
-    def __hash__(self) -> int:
-        return hash(self._string)
-
     def __reduce__(self) -> Tuple[object, ...]:
         return NameField, (self._string, self.pattern)
 
 
 def read_values(name: str, text: str, vocabulary: Vocabulary) -> ValuesField:
     """
-    Read a field whose values are registered.
+    Read a field whose values are registered, as `rocon_uri.alternatives.read_alternatives` does.
 
-    :param str name: the name of the field
-    :param str text: its text, decoded; '' for any
-    :param Vocabulary vocabulary: what to read it with
     :returns: ValuesField
-    :raises RoconURIValueError: if it is not legal; span is in ``text``
     """
     memo = vocabulary.fields_read[name]
     field: Optional[ValuesField] = memo.get(text)

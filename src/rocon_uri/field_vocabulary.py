@@ -19,12 +19,10 @@ __all__ = ['FieldVocabulary', 'RulesError', 'members']
 
 class RulesError(ValueError):
     """
-    Rules that do not fit: a name that is not legal, or one under two parents of one field.
+    Rules that do not fit: a name that is not legal, or one in two groups of one field.
 
-    :param str problem: what is wrong
-    :param path: sequence of the keys and indices that lead to it in the rules
-
-    ``problem`` and ``path`` are attributes too.
+    :param str problem: what is wrong, an attribute too
+    :param path: tuple of the keys and indices that lead to it in the rules, an attribute too
     """
 
     def __init__(self, problem: str, path: Tuple[object, ...] = ()) -> None:
@@ -35,7 +33,7 @@ class RulesError(ValueError):
 
 def members(rules: object, path: Tuple[object, ...] = ()) -> Iterator[Member]:
     """
-    The names directly below a group of rules, in whichever way it is written down.
+    The names directly below a group of rules, whichever way it is written.
 
     :param rules: a mapping from a name to the rules below it, a list of names and mappings, a
         single name, or None for nothing
@@ -122,10 +120,8 @@ class FieldVocabulary:
 
     def mask(self, value: str) -> int:
         """
-        The same as a set of bits, one for each value that is not a group.
+        The `leaves` of a value or group as a set of bits, an int.
 
-        :param str value: a registered value or group
-        :returns: int
         :raises KeyError: if it is not registered
         """
         mask = 0
@@ -135,10 +131,7 @@ class FieldVocabulary:
 
     def covering(self, mask: int) -> List[str]:
         """
-        The fewest values and groups that cover exactly the values of a mask.
-
-        :param int mask: as `mask` returns
-        :returns: list of str
+        The fewest values and groups that cover exactly the values of a `mask`, a list of str.
 
         >>> from rocon_uri import Vocabulary
         >>> systems = Vocabulary.bundled().field('operating_system')
@@ -167,7 +160,7 @@ class FieldVocabulary:
         :raises RulesError: for a name that is not a ROS base name, or is in two groups
         """
         parents = dict(self._parents)
-        # In the order of the rules and in depth: what a group is in is known once it is extended.
+        # Depth first, in the order of the rules: the group of a group is known before its members.
         waiting: List[Tuple[Optional[str], Member]] = [
             (None, entry) for entry in members(rules, path)]
         waiting.reverse()

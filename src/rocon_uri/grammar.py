@@ -1,8 +1,7 @@
 """
 The grammar of a rocon URI: as EBNF for people, and as the one expression that splits a text.
 
-The expression only finds the parts. Whether each part is legal is decided where it is read, in
-`rocon_uri.reading`.
+The expression only finds the parts. `rocon_uri.reading` decides whether each part is legal.
 """
 from __future__ import annotations
 
@@ -75,15 +74,7 @@ is_rocon_app = re.compile(r'(?:[A-Za-z]\w{0,254}/)?[A-Za-z]\w{0,254}', re.ASCII)
 
 
 def stray_character(text: str) -> Optional[int]:
-    """
-    Where the first white space or control character is, which no URI may have.
-
-    :param str text: a whole URI
-    :returns: int, its index, or None
-
-    >>> stray_character('rocon:/pr2 /bob')
-    10
-    """
+    """The index of the first white space or control character, which no URI may have, or None."""
     match = _stray_character(text)
     return match.start() if match else None
 
@@ -92,8 +83,6 @@ def decoded(raw: str) -> str:
     """
     A part of a URI with its percent-escapes decoded.
 
-    :param str raw: the part as it stands in the URI
-    :returns: str
     :raises ValueError: for a ``%`` without two hexadecimal digits, and for escapes that are not
         UTF-8; its text says which
 
@@ -116,12 +105,7 @@ def decoded(raw: str) -> str:
 
 def raw_span(raw: str, start: int, end: int) -> Tuple[int, int]:
     """
-    Where characters of a decoded part stand in its raw text.
-
-    :param str raw: the part as it stands in the URI, which `decoded` takes
-    :param int start: index of the first character in the decoded part
-    :param int end: index after the last
-    :returns: (int, int), the same for the raw text
+    Where characters of a decoded part stand in its raw text, which `decoded` takes.
 
     >>> raw_span('pr2%7Ckobuki', 4, 10)
     (6, 12)

@@ -1,8 +1,8 @@
 """
-A RoconURI as the ROS message ``rocon_uri/RoconURI``, and back.
+Conversion between a RoconURI and the ROS message ``rocon_uri/RoconURI``.
 
-The message class is generated when the package is built, and is first imported when it is needed:
-the rest of the package works without ROS.
+Building the package generates the class of the message. It is imported only when it is needed,
+since the rest of the package works without ROS.
 """
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def to_msg(uri: RoconURI) -> Message:
     """
     The message with the content of a URI.
 
-    :param RoconURI uri: a URI
+    :param RoconURI uri: any
     :returns: ``rocon_uri.msg.RoconURI``
     :raises ImportError: where the messages of this package have not been built
 
@@ -27,7 +27,7 @@ def to_msg(uri: RoconURI) -> Message:
     >>> to_msg(parse('rocon:/turtlebot2|pr2/bob')).hardware_platform
     ['turtlebot2', 'pr2']
     """
-    from rocon_uri.msg import RoconURI as Message     # pulls in ROS, so only on demand
+    from rocon_uri.msg import RoconURI as Message
     return Message(concert_name=uri.concert_name,
                    hardware_platform=uri.hardware_platform.list,
                    name=uri.name.string,
@@ -40,12 +40,12 @@ def from_msg(msg: Message) -> RoconURI:
     """
     The URI with the content of a message, checked as :func:`rocon_uri.parse` checks a text.
 
-    Each string of the message is a value as it stands: a ``/``, ``|``, ``#`` or ``%`` in one is
-    never read as syntax. An empty list, like an empty name, is ``*``.
+    Each string of the message is one value: ``/``, ``|``, ``#`` and ``%`` are not read as syntax.
+    An empty list and an empty name are ``*``.
 
-    :param msg: ``rocon_uri.msg.RoconURI``, from anybody
+    :param msg: ``rocon_uri.msg.RoconURI``; its content need not be trusted
     :returns: RoconURI, equal to the one that the message was made from
-    :raises RoconURIValueError: if a field does not hold what it may in a rocon URI
+    :raises RoconURIValueError: for a field that is not legal
 
     >>> from rocon_uri import parse
     >>> from_msg(to_msg(parse('rocon:/pr2/bob'))) == parse('rocon:/pr2/bob')

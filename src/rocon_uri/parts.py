@@ -1,8 +1,8 @@
 """
-The parts of a rocon URI: which part of the text is which field, and where it stands.
+Splitting a rocon URI: which part of the text is which field, and where it stands.
 
-This is where it is decided that ``rocon://turtlebot2/bob`` is a robot and not a concert called
-turtlebot2, and what makes a text illegal as a whole.
+This module decides that ``rocon://turtlebot2/bob`` is a robot and not a concert called turtlebot2,
+and what makes a text illegal as a whole.
 """
 from __future__ import annotations
 
@@ -44,10 +44,8 @@ class Parts:
 
     def decoded(self, index: int) -> str:
         """
-        One part with its percent-escapes decoded.
+        One part, by its index in `FIELDS`, with its percent-escapes decoded.
 
-        :param int index: which of `FIELDS` it is
-        :returns: str
         :raises RoconURIValueError: for escapes that are wrong, and for an escaped slash
         """
         raw = self._written[index]
@@ -64,12 +62,7 @@ class Parts:
                                  FIELDS[index], raw)
 
     def placed(self, error: RoconURIValueError) -> RoconURIValueError:
-        """
-        An error of one part, placed in the whole text.
-
-        :param RoconURIValueError error: its ``uri`` is the text of the part that is its ``field``
-        :returns: an error of the same class, with the text of the URI and the span in it
-        """
+        """An error of one part, whose text is its ``uri``, placed in the text of the URI."""
         if self._match is None:
             return error
         index = FIELDS.index(error.field)
@@ -81,12 +74,7 @@ class Parts:
         return error.within(self._match.string, (start + first, start + last))
 
     def start(self, index: int) -> int:
-        """
-        Where a part starts in the text.
-
-        :param int index: which of `FIELDS` it is
-        :returns: int; 0 for a part that is left out
-        """
+        """Where a part starts in the text, by its index in `FIELDS`; 0 if it is left out."""
         groups = _GROUPS_WITH_ONE_SLASH if self.with_one_slash else _GROUPS
         return max(0, self._match.start(groups[index])) if self._match else 0
 
@@ -99,13 +87,13 @@ _GROUPS_WITH_ONE_SLASH = (2, 1, 3, 4, 5, 8)
 
 def split(text: str, vocabulary: Vocabulary, strict: bool) -> Parts:
     """
-    Split a URI into its parts, and check what no single part is to blame for.
+    Split a URI into its parts, and check what concerns the whole text.
 
     :param str text: anything
     :param Vocabulary vocabulary: the registered platforms
     :param bool strict: take the text by its letter
     :returns: Parts
-    :raises RoconURIValueError: with ``field`` ``'uri'``, if the whole is not legal
+    :raises RoconURIValueError: with ``field`` ``'uri'``, if the text as a whole is not legal
     """
     if len(text) > grammar.TEXT_LIMIT:
         raise RoconURIValueError('a rocon URI has at most %d characters, this one has more'
@@ -173,14 +161,7 @@ def _check_question_marks(text: str, written: Sequence[str], parts: Parts) -> No
 
 
 def needs_all_fields(concert_name: str, platforms: Iterable[str], vocabulary: Vocabulary) -> bool:
-    """
-    Would a concert be read as a platform if not all four fields were written?
-
-    :param str concert_name: the concert, '' for none
-    :param platforms: iterable of str, the alternatives of the hardware platform
-    :param Vocabulary vocabulary: the registered platforms
-    :returns: bool
-    """
+    """Would a concert, '' for none, be read as a platform if not all four fields were written?"""
     if not concert_name:
         return False
     registered = completed(vocabulary).field('hardware_platform')

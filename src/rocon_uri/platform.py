@@ -1,8 +1,8 @@
 """
-What this machine is, as a rocon URI.
+The rocon URI of this machine.
 
-A robot calls it to announce itself, a remocon to say where it runs: the type and the name are
-given, the application framework and the operating system are found out.
+A robot needs it to announce itself, a remocon to say where it runs. The caller gives the type and
+the name; the application framework and the operating system are found out here.
 """
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ['default_robot_name', 'default_robot_type', 'generate_platform_rocon_uri']
 
-#: The hardware platform of a machine that was given no other.
+#: The hardware platform of a machine if none is given.
 default_robot_type = 'pc'
 
 _OS_RELEASE_FILES = ('/etc/os-release', '/usr/lib/os-release')
@@ -30,14 +30,13 @@ def generate_platform_rocon_uri(robot_type: str, robot_name: str) -> str:
     """
     The rocon URI of this machine, all four fields of it.
 
-    Type and name are made legal. The type need not be registered: reading the text reports
-    that. The application framework is ``ROS_DISTRO`` where that is registered and
-    ``ros_other`` elsewhere; the operating system is the nearest registered value to what
-    rospkg's ``os_detect``, or the system itself, says: the release, the distribution, or
-    ``linux``.
+    The type and the name are made legal. The type need not be registered: parsing the text reports
+    that. The application framework is ``ROS_DISTRO`` if that is registered, else ``ros_other``.
+    The operating system is the first registered value of those that rospkg's ``os_detect``, or
+    the system itself, names: the release, the distribution, or ``linux``.
 
     :param str robot_type: the hardware platform, as ``'turtlebot2'``
-    :param str robot_name: what this robot is called
+    :param str robot_name: the name of this robot
     :returns: str, as ``'rocon:/pc/bob/noetic/focal'``
     :raises RoconURIValueError: if the type or the name is empty
 
@@ -58,12 +57,12 @@ def default_robot_name() -> str:
     >>> '.' in default_robot_name()
     False
     """
-    import platform     # costs more than the rest of the package, and only two functions need it
+    import platform     # slow to import, and only two functions need it
     return platform.node().partition('.')[0] or 'localhost'
 
 
 def _legal_name(text: str, field: str) -> str:
-    """The text as a ROS base name: lower case, ``_`` for what may not stand in one."""
+    """The text as a ROS base name: lower case, with ``_`` for every character not allowed."""
     if not text:
         raise RoconURIValueError('%s %s is empty, expected at least one character'
                                  % (field, quoted(text)), field=field)
@@ -89,17 +88,17 @@ def _first_registered(field: str, names: Iterable[str]) -> Optional[str]:
 
 
 def _system_names() -> List[str]:
-    """What this system may be called, the most exact name first."""
+    """The names that this system may have in the vocabulary, the most exact one first."""
     try:
-        import rospkg.os_detect     # slow to import, and not there without ROS
+        import rospkg.os_detect     # slow to import, and missing without ROS
         name, _, codename = rospkg.os_detect.OsDetect().detect_os()
         return [codename, name + codename, name]
-    except Exception:       # a robot has a URI even where a detector fails
+    except Exception:       # a robot has a URI even if a detector fails
         return _system_names_without_rospkg()
 
 
 def _system_names_without_rospkg() -> List[str]:
-    import platform     # see default_robot_name
+    import platform     # as in default_robot_name
     system, release = platform.system(), platform.release()
     if system != 'Linux':
         return [system + release, {'Darwin': 'osx'}.get(system, system)]
@@ -109,7 +108,7 @@ def _system_names_without_rospkg() -> List[str]:
 
 
 def _os_release() -> Dict[str, str]:
-    """What the first of its files that can be read says, as in os-release(5)."""
+    """The variables of the first os-release(5) file that can be read."""
     for path in _OS_RELEASE_FILES:
         try:
             with open(path, encoding='utf-8', errors='replace') as lines:

@@ -5,24 +5,70 @@ from __future__ import annotations
 
 from rocon_uri import grammar, name_pattern
 from rocon_uri.exceptions import RoconURIValueError, UnregisteredValue
-from rocon_uri.field import ValuesField, read_values
-from rocon_uri.parts import Parts, split
+from rocon_uri.field import Field, ValuesField, read_values
+from rocon_uri.parts import FIELDS, Parts, split
 from rocon_uri.sources.ros_names import is_legal_base_name
 from rocon_uri.sources.wording import quoted
 from rocon_uri.vocabulary import Vocabulary, completed
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Optional, Sequence, Tuple
+    from typing import Iterable, Optional, Sequence, Union
     from rocon_uri.name_pattern import NamePattern
-    #: concert_name, hardware_platform, name, its pattern (None for a literal name),
-    #: application_framework, operating_system, rocon_app, the vocabulary, was // read as /?
-    Reading = Tuple[str, ValuesField, str, Optional[NamePattern], ValuesField, ValuesField, str,
-                    Vocabulary, bool]
+    FieldText = Union[str, Field, Iterable[str]]
 
-__all__ = ['read', 'read_common', 'read_texts']
+__all__ = ['Reading', 'made', 'read', 'read_common', 'read_fields']
 
 _LEFT_OUT = ('',) * 5       # what the parts between slashes are where there are fewer
+
+
+class Reading:
+    """
+    A URI while its attributes are set; `rocon_uri.uri.RoconURI`, which it becomes, refuses that.
+
+    Setting the attributes of a class that refuses takes 0.55 us instead of 0.21, where all of
+    reading the commonest text takes 0.76.
+    """
+
+    __slots__ = {
+        'concert_name': 'The concert that the resource is attached to, a str; empty for any.',
+        'hardware_platform': 'The hardware, as ``turtlebot2``; a `Field`.',
+        'name_text': 'The text of the name or of the pattern for names, a str.',
+        'name_pattern': 'The pattern for names, a `NamePattern`; None for a literal name.',
+        'application_framework': 'The application framework, as ``noetic``; a `Field`.',
+        'operating_system': 'The operating system, as ``focal``; a `Field`.',
+        'rocon_app': 'The app that runs there, a str; empty for none.',
+        'vocabulary': 'The `Vocabulary` that the URI was read with.',
+        'read_with_one_slash':
+            'Was ``//`` read as ``/``, since a registered platform follows it?'}
+
+    concert_name: str
+    hardware_platform: ValuesField
+    name_text: str
+    name_pattern: Optional[NamePattern]     # most names are literal
+    application_framework: ValuesField
+    operating_system: ValuesField
+    rocon_app: str
+    vocabulary: Vocabulary
+    read_with_one_slash: bool
+
+
+def made(concert_name: str, hardware_platform: ValuesField, name_text: str,
+         name_pattern: Optional[NamePattern], application_framework: ValuesField,
+         operating_system: ValuesField, rocon_app: str, vocabulary: Vocabulary,
+         read_with_one_slash: bool = False) -> Reading:
+    """A reading with these attributes; with an ``__init__`` it would take longer."""
+    reading = Reading()
+    reading.concert_name = concert_name
+    reading.hardware_platform = hardware_platform
+    reading.name_text = name_text
+    reading.name_pattern = name_pattern
+    reading.application_framework = application_framework
+    reading.operating_system = operating_system
+    reading.rocon_app = rocon_app
+    reading.vocabulary = vocabulary
+    reading.read_with_one_slash = read_with_one_slash
+    return reading
 
 
 def read_common(text: str, vocabulary: Vocabulary) -> Optional[Reading]:
@@ -48,7 +94,7 @@ def read_common(text: str, vocabulary: Vocabulary) -> Optional[Reading]:
         return None
     if app and not grammar.is_rocon_app(app):
         return None
-    return '', values[0], name, None, values[1], values[2], app, vocabulary, False
+    return made('', values[0], name, None, values[1], values[2], app, vocabulary)
 
 
 def read(text: str, vocabulary: Vocabulary, strict: bool) -> Reading:
@@ -59,7 +105,7 @@ def read(text: str, vocabulary: Vocabulary, strict: bool) -> Reading:
     :param Vocabulary vocabulary: the registered values; the complete vocabulary takes its place
         if it only stood in for that one and lacks a value
     :param bool strict: take the text by its letter
-    :returns: the fields and how they were read
+    :returns: Reading
     :raises RoconURIValueError: for a text that is not legal; ``span`` is where in it the fault is
     """
     parts = split(text, vocabulary, strict)
@@ -71,21 +117,35 @@ def read(text: str, vocabulary: Vocabulary, strict: bool) -> Reading:
     return read(text, completed(vocabulary), strict)
 
 
-def read_texts(texts: Sequence[str], vocabulary: Vocabulary) -> Reading:
+def read_fields(values: Sequence[FieldText], vocabulary: Vocabulary) -> Reading:
     """
-    Read the texts of the fields, which come without percent-escapes.
+    Read the fields one by one, without percent-escapes.
 
-    :param texts: sequence of six str, in the order of `rocon_uri.parts.FIELDS`
+    :param values: sequence of six, in the order of `rocon_uri.parts.FIELDS`: str, or `Field`, or
+        iterable of the alternatives
     :param Vocabulary vocabulary: as `read` takes
-    :returns: the fields and how they were read
+    :returns: Reading
     :raises RoconURIValueError: for a field that is not legal; ``span`` is where in its text
     """
+    texts = list(map(_text, FIELDS, values))
     try:
         return _read_parts(Parts(texts, vocabulary))
     except UnregisteredValue:
         if completed(vocabulary) is vocabulary:
             raise
-    return read_texts(texts, completed(vocabulary))
+    return _read_parts(Parts(texts, completed(vocabulary)))
+
+
+def _text(field: str, value: FieldText) -> str:
+    """The text of a field that is given as a str, as a Field or as alternatives."""
+    if isinstance(value, (str, Field)):
+        return str(value)
+    alternatives = list(value)
+    for alternative in alternatives:
+        if not alternative or '|' in alternative:
+            raise RoconURIValueError('%s %s is not one alternative' % (field, quoted(alternative)),
+                                     alternative, field, alternative)
+    return '|'.join(alternatives)
 
 
 def _read_parts(parts: Parts) -> Reading:
@@ -98,8 +158,8 @@ def _read_parts(parts: Parts) -> Reading:
     framework = read_values('application_framework', parts.decoded(3), vocabulary)
     system = read_values('operating_system', parts.decoded(4), vocabulary)
     app = _read_rocon_app(parts.decoded(5))
-    return (concert_name, platform, name, pattern, framework, system, app, vocabulary,
-            parts.with_one_slash)
+    return made(concert_name, platform, name, pattern, framework, system, app, vocabulary,
+                parts.with_one_slash)
 
 
 def _read_concert_name(text: str) -> str:

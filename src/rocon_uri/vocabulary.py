@@ -1,9 +1,9 @@
 """
 Vocabularies: the values that the fields of a rocon URI may have.
 
-A vocabulary never changes: more rules make a new one. What a URI is read with where nothing else is
-said is `current`: first what is bundled, then, once it was `complete`, also what the packages on
-this machine export.
+A vocabulary never changes: more rules make a new one. A URI for which no vocabulary is given is
+read with the `current` one: what is bundled and, once something needed it, also what the packages
+on this machine export.
 """
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ class Vocabulary:
     The values of the three fields that have registered ones.
 
     :param rules: mapping from ``'hardware_platform'``, ``'application_framework'`` and
-        ``'operating_system'`` to nested groups: mappings from a group to what is in it, lists of
-        values and of such mappings, or a mix; a list of such mappings is the same
+        ``'operating_system'`` to nested groups. These are mappings from a group to its members,
+        lists of values and of such mappings, or a mix. A list of mappings may stand for a mapping.
     :raises RulesError: for rules that do not fit
 
     >>> ours = Vocabulary({'hardware_platform': {'robot': ['bender']}})
@@ -56,8 +56,8 @@ class Vocabulary:
         self.is_open = is_open
         #: int: larger for one that was made later
         self.serial = next(_serial_numbers)
-        # What was read with this vocabulary, kept by those who read: so it ends with it, and a
-        # thread that is late cannot leave anything for those who read with the next one.
+        # What was read with this vocabulary. It is kept here so that it is dropped together with
+        # the vocabulary: a slow thread cannot leave anything for those who read with the next one.
         self.fields_read: Dict[str, Dict[str, Any]] = {name: {} for name in fields}
         self.uris_read: Dict[str, Any] = {}
 
@@ -75,9 +75,7 @@ class Vocabulary:
     @classmethod
     def bundled(cls) -> 'Vocabulary':
         """
-        What this package knows by itself.
-
-        :returns: Vocabulary
+        What this package knows by itself, a `Vocabulary`.
 
         >>> 'noetic' in Vocabulary.bundled().field('application_framework')
         True
@@ -92,9 +90,7 @@ class Vocabulary:
     @classmethod
     def open(cls) -> 'Vocabulary':
         """
-        The complete vocabulary of this machine, in which any other base name is a value too.
-
-        :returns: Vocabulary
+        The complete vocabulary of this machine, a `Vocabulary` in which any base name is a value.
 
         >>> Vocabulary.open().is_open
         True
@@ -103,15 +99,14 @@ class Vocabulary:
 
     def opened(self) -> 'Vocabulary':
         """
-        This vocabulary, but any base name is a value.
+        This vocabulary, but any base name is a value; itself if it is open already.
 
-        :returns: Vocabulary, itself where it is open already
+        :returns: Vocabulary
         """
         if self._opened is None:
-            with _lock:     # since two would be two different vocabularies
-                if self._opened is None:
-                    self._opened = (
-                        self if self.is_open else Vocabulary._of(self._fields, is_open=True))
+            with _lock:     # two threads must get the same one
+                self._opened = self._opened or (
+                    self if self.is_open else Vocabulary._of(self._fields, is_open=True))
         return self._opened
 
     def extended(self, rules: object) -> 'Vocabulary':
@@ -132,9 +127,8 @@ class Vocabulary:
         """
         The values of one field.
 
-        :param str name: one of `rocon_uri.grammar.VOCABULARY_FIELDS`
+        :param str name: one of `rocon_uri.grammar.VOCABULARY_FIELDS`; any other is a KeyError
         :returns: FieldVocabulary
-        :raises KeyError: for any other name
         """
         return self._fields[name]
 
@@ -154,7 +148,7 @@ def read_rules(vocabulary: Vocabulary, path: str) -> Vocabulary:
     """
     A vocabulary with what one file of rules adds.
 
-    :param Vocabulary vocabulary: what there is already
+    :param Vocabulary vocabulary: what it is added to
     :param str path: a YAML or JSON file: fields at the top, nested groups below
     :returns: Vocabulary
     :raises YamlError: `rocon_uri.sources.yaml_data.YamlError`, with the place of a fault in it
@@ -181,7 +175,7 @@ def vocabulary_of_packages(packages: Mapping[str, Package]) -> Tuple[Vocabulary,
     >>> 'kobuki' in vocabulary.field('hardware_platform')
     True
     """
-    from rocon_uri.exported_rules import rules_paths    # here and below, only where it is used
+    from rocon_uri.exported_rules import rules_paths    # here and below, since it loads YAML
     paths = rules_paths(packages)
     return _with_rules_files(complete() if paths else current(), paths)
 
@@ -191,17 +185,15 @@ def with_exported_rules(vocabulary: Vocabulary) -> Vocabulary:
     A vocabulary with all that the packages on this machine and ``ROCON_URI_RULES`` add.
 
     A package or a file with a fault is logged, with the line, and adds nothing.
-
-    :param Vocabulary vocabulary: what there is already
-    :returns: Vocabulary
     """
     from rocon_uri.exported_rules import rules_paths_of_machine
     paths, package_errors = rules_paths_of_machine()
-    for error in package_errors:
-        _warn('rules of a package left out: %s', error)
     vocabulary, faults = _with_rules_files(vocabulary, paths)
-    for fault in faults:
-        _warn('rules left out: %s', fault)
+    for text, errors in ('rules of a package left out: %s', package_errors), (
+            'rules left out: %s', faults):
+        for error in errors:
+            import logging      # costs more than the rest of the package, and few need it
+            logging.getLogger('rocon_uri').warning(text, error)
     return vocabulary
 
 
@@ -226,21 +218,16 @@ def _with_rules_files(vocabulary: Vocabulary, paths: Iterable[str],
     return Vocabulary._of(fields, vocabulary.is_open), faults
 
 
-def _warn(text: str, fault: Fault) -> None:
-    import logging      # costs more than the rest of the package, and few need it
-    logging.getLogger('rocon_uri').warning(text, fault)
-
-
-_initial: Optional[Vocabulary] = None       # what is bundled, in use until more is asked for
+_initial: Optional[Vocabulary] = None       # what is bundled; current until something needs more
 _complete: Optional[Vocabulary] = None
 _lock = RLock()
 
 
 def current() -> Vocabulary:
     """
-    The vocabulary that URIs are read with where no other is given.
+    The vocabulary that URIs are read with if none is given.
 
-    :returns: Vocabulary: what is bundled, until something needed more and it was completed
+    :returns: Vocabulary, what is bundled until something needs more; then the `complete` one
     """
     global _initial
     if _complete is not None:
@@ -268,24 +255,16 @@ def complete() -> Vocabulary:
 
 
 def completed(vocabulary: Vocabulary) -> Vocabulary:
-    """
-    The vocabulary to use where the extent of groups matters.
-
-    :param Vocabulary vocabulary: any
-    :returns: Vocabulary: the complete one for the one that stood in for it, else the one given
-    """
+    """The complete vocabulary for the bundled one that stands in for it, else the one given."""
     return complete() if vocabulary is _initial else vocabulary
 
 
 def precedence(vocabulary: Vocabulary) -> Tuple[bool, int]:
     """
-    A key that is larger for the one of two vocabularies that URIs of both are to be read with.
+    A key by which to choose the vocabulary for two URIs that were read with different ones.
 
-    That is one that was given, before what stands in where none is; and then the later one.
-
-    :param Vocabulary vocabulary: any
-    :returns: (bool, int)
+    The larger one is chosen: one that the caller gave, or else the one that was made later.
     """
-    stands_in = any(default is not None and vocabulary._fields is default._fields
-                    for default in (_initial, _complete))
-    return not stands_in, vocabulary.serial
+    is_default = any(default is not None and vocabulary._fields is default._fields
+                     for default in (_initial, _complete))
+    return not is_default, vocabulary.serial

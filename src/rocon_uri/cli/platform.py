@@ -14,20 +14,15 @@ JSON: {"uris": [URI], "errors": [ERROR, ...]}
 """
 from __future__ import annotations
 
+import argparse
+
 from rocon_uri.cli.display import print_json
 from rocon_uri.cli.given import GivenURI, Report
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.platform import (
-    default_robot_name,
-    default_robot_type,
-    generate_platform_rocon_uri,
-)
+    default_robot_name, default_robot_type, generate_platform_rocon_uri)
 from rocon_uri.uri import parse
 from rocon_uri.vocabulary import Vocabulary
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import argparse
 
 __all__ = ['add_arguments', 'main']
 

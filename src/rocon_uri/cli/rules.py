@@ -11,13 +11,11 @@ JSON: {"ebnf": TEXT, "errors": []}
 """
 from __future__ import annotations
 
+import argparse
+
 from rocon_uri.cli.display import print_json
 from rocon_uri.grammar import VOCABULARY_FIELDS, ebnf
 from rocon_uri.vocabulary import complete
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import argparse
 
 __all__ = ['add_arguments', 'main']
 
