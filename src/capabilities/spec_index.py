@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     Spec = Union[CapabilityInterface, SemanticCapabilityInterface, CapabilityProvider]
     S = TypeVar('S')
+    T = TypeVar('T')
     Entries = Dict[str, Tuple[S, str]]      # what is there and its path, by name
 
 __all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'SpecIndex']
@@ -81,6 +82,11 @@ class InterfaceNameNotFoundException(_RefusedSpec):
         return type(self), (*self.args, self.suggestions)
 
 
+def _view(made_by: Callable[[SpecIndex], T], doc: str) -> T:
+    """A property of `SpecIndex`, which type checkers take for what it returns."""
+    return property(made_by, doc=doc)     # type: ignore[return-value]
+
+
 class SpecIndex:
     """
     Capability interfaces, semantic interfaces and providers by ``package/name``.
@@ -113,50 +119,25 @@ class SpecIndex:
         specs.update(self.providers)
         return specs
 
-    @property
-    def interfaces(self) -> Dict[str, CapabilityInterface]:
-        """The interfaces by name, a dict."""
-        return _specs(self._interfaces)
-
-    @property
-    def semantic_interfaces(self) -> Dict[str, SemanticCapabilityInterface]:
-        """The semantic interfaces by name, a dict."""
-        return _specs(self._semantic_interfaces)
-
-    @property
-    def providers(self) -> Dict[str, CapabilityProvider]:
-        """The providers by name, a dict."""
-        return _specs(self._providers)
-
-    @property
-    def interface_names(self) -> List[str]:
-        """The names of the interfaces, a list."""
-        return list(self._interfaces)
-
-    @property
-    def semantic_interface_names(self) -> List[str]:
-        """The names of the semantic interfaces, a list."""
-        return list(self._semantic_interfaces)
-
-    @property
-    def provider_names(self) -> List[str]:
-        """The names of the providers, a list."""
-        return list(self._providers)
-
-    @property
-    def interface_paths(self) -> Dict[str, str]:
-        """The files of the interfaces by name, a dict to str."""
-        return _paths(self._interfaces)
-
-    @property
-    def semantic_interface_paths(self) -> Dict[str, str]:
-        """The files of the semantic interfaces by name, a dict to str."""
-        return _paths(self._semantic_interfaces)
-
-    @property
-    def provider_paths(self) -> Dict[str, str]:
-        """The files of the providers by name, a dict to str."""
-        return _paths(self._providers)
+    interfaces = _view(lambda index: _specs(index._interfaces),
+                       'The interfaces by name: dict of `CapabilityInterface`.')
+    semantic_interfaces = _view(
+        lambda index: _specs(index._semantic_interfaces),
+        'The semantic interfaces by name: dict of `SemanticCapabilityInterface`.')
+    providers = _view(lambda index: _specs(index._providers),
+                      'The providers by name: dict of `CapabilityProvider`.')
+    interface_names = _view(lambda index: list(index._interfaces),
+                            'The names of the interfaces: list of str.')
+    semantic_interface_names = _view(lambda index: list(index._semantic_interfaces),
+                                     'The names of the semantic interfaces: list of str.')
+    provider_names = _view(lambda index: list(index._providers),
+                           'The names of the providers: list of str.')
+    interface_paths = _view(lambda index: _paths(index._interfaces),
+                            'The files of the interfaces by name: dict of str.')
+    semantic_interface_paths = _view(lambda index: _paths(index._semantic_interfaces),
+                                     'The files of the semantic interfaces by name: dict of str.')
+    provider_paths = _view(lambda index: _paths(index._providers),
+                           'The files of the providers by name: dict of str.')
 
     def providers_of(self, interface_name: str) -> List[str]:
         """

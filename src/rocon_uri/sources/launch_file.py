@@ -104,7 +104,7 @@ class LaunchFile(NamedTuple):
     path: str
     #: where it is, with all symbolic links followed; None where nothing is there
     real_path: Optional[str]
-    #: what is against it; None where nothing is
+    #: what is against it, or None
     fault: Optional[LaunchFault]
     #: does its text contain ``capability_server_nodelet_manager_name``?
     names_nodelet_manager: bool
@@ -123,8 +123,7 @@ class LaunchFiles:
 
     def look_at(self, name: str, folder: str) -> LaunchFile:
         """
-        What is known about a launch file. Costs one ``stat``; the file is read only if it has
-        changed since it was last read.
+        What is known about a launch file. It costs one ``stat`` where the file has not changed.
 
         :param str name: its path, absolute or relative to the folder
         :param str folder: where the file is that names it: the spec, or the app
@@ -154,12 +153,7 @@ class LaunchFiles:
 
 
 class RememberedLaunchFiles:
-    """
-    Launch files as they were when they were looked at last. The disk is not touched.
-
-    >>> LaunchFiles().remembered().look_at('dance.launch', 'launch') is None
-    True
-    """
+    """Launch files as they were when they were looked at last. The disk is not touched."""
 
     def __init__(self, look_at: Callable[[str, str], Optional[LaunchFile]]) -> None:
         #: as `LaunchFiles.look_at`, but None for what was never looked at
@@ -192,7 +186,7 @@ class _Refused(Exception):
 def _read(name: str, folder: str) -> LaunchFile:
     path = os.path.join(folder, name)
     real_path: Optional[str] = None
-    alternatives: Tuple[str, ...] = ()
+    fault: Optional[LaunchFault] = None
     names_nodelet_manager = False
     try:
         package = _package_folder(folder)
@@ -203,18 +197,17 @@ def _read(name: str, folder: str) -> LaunchFile:
         names_nodelet_manager = any(argument in content for argument in _NODELET_MANAGER)
         _check_xml(content)
     except _Refused as refused:
-        if refused.kind == MISSING:
-            real_path = None
-            alternatives = _alternatives(name, folder, package)
-        fault = LaunchFault(refused.kind, refused.problem, name, path, *refused.place, alternatives)
-        return LaunchFile(path, real_path, fault, names_nodelet_manager)
+        is_missing = refused.kind == MISSING
+        real_path = None if is_missing else real_path
+        fault = LaunchFault(refused.kind, refused.problem, name, path, *refused.place,
+                            _alternatives(name, folder, package) if is_missing else ())
     except OSError as error:
         problem = 'cannot be read: %s' % (error.strerror or error)
-        return LaunchFile(path, real_path, LaunchFault(UNREADABLE, problem, name, path), False)
+        fault = LaunchFault(UNREADABLE, problem, name, path)
     except ValueError:      # there is a NUL in it, or a lone surrogate
-        return LaunchFile(path, None, LaunchFault(
-            UNREADABLE, 'is not the name of a file', name, path), False)
-    return LaunchFile(path, real_path, None, names_nodelet_manager)
+        real_path = None
+        fault = LaunchFault(UNREADABLE, 'is not the name of a file', name, path)
+    return LaunchFile(path, real_path, fault, names_nodelet_manager)
 
 
 def _content(path: str) -> bytes:

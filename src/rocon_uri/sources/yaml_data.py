@@ -27,12 +27,27 @@ class YamlError(LocatedError, ValueError):
     """
 
 
-class YamlMapping(dict):    # type: ignore[type-arg]    # Python 3.8 has no dict[...]
+class _Positioned:
+    __slots__ = ()
+    _start: Position    # counted from 0, as the parser counts: few are asked for
+
+    @property
+    def position(self) -> Position:
+        """Where it begins: (line, column)."""
+        return self._start[0] + 1, self._start[1] + 1
+
+
+class YamlMapping(_Positioned, dict):   # type: ignore[type-arg]    # Python 3.8 has no dict[...]
     """
     A mapping read from YAML, in the order of the file: a ``dict`` that knows its positions.
 
     Keys are ``str``, ``int``, ``float``, ``bool`` or ``None``. A key that was not read but put in
     later has no position.
+
+    >>> from rocon_uri.sources.yaml_source import load
+    >>> mapping = load('a: b', 'f')
+    >>> mapping.key_position('a'), mapping.value_position('a')
+    ((1, 1), (1, 4))
     """
 
     __slots__ = ('_start', '_positions', 'repeated')
@@ -40,54 +55,24 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # Python 3.8 has no dict
     def __init__(self, line: int, column: int,
                  positions: Optional[Dict[object, Tuple[int, int, int, int]]] = None) -> None:
         super().__init__()
-        # Counted from 0, as the parser counts: adding 1 is left to those few that are asked for.
         self._start = line, column
         self._positions = {} if positions is None else positions
         #: What was lost to duplicate keys: a list of (key, its earlier value, position of the
         #: duplicate), empty as a rule.
         self.repeated: List[Tuple[object, object, Position]] = []
 
-    @property
-    def position(self) -> Position:
-        """Where the mapping begins: (line, column)."""
-        return self._start[0] + 1, self._start[1] + 1
-
     def key_position(self, key: object) -> Position:
-        """
-        Where the key stands; the last one, if it is repeated.
-
-        :param key: a key of the mapping
-        :returns: (int, int), line and column
-        :raises KeyError: if it was not read
-
-        >>> from rocon_uri.sources.yaml_source import load
-        >>> load('a: b', 'f').key_position('a')
-        (1, 1)
-        """
+        """Where the key stands (the last one, if it is repeated); KeyError if it was not read."""
         line, column, _, _ = self._positions[key]
         return line + 1, column + 1
 
     def value_position(self, key: object) -> Position:
-        """
-        Where the value of the key begins; if it is an alias, where that stands.
-
-        :param key: a key of the mapping
-        :returns: (int, int), line and column
-        :raises KeyError: if it was not read
-
-        >>> from rocon_uri.sources.yaml_source import load
-        >>> load('a: b', 'f').value_position('a')
-        (1, 4)
-        """
+        """Where its value, or the alias for it, begins; KeyError if the key was not read."""
         _, _, line, column = self._positions[key]
         return line + 1, column + 1
 
     def merge(self, sources: List[YamlMapping]) -> None:
-        """
-        Put the keys of other mappings before its own, as a merge key does. Its own win.
-
-        :param sources: list of `YamlMapping`; a later one wins over an earlier one
-        """
+        """Put the keys of others before its own, as a merge key does. The last of equals wins."""
         own, own_positions = dict(self), self._positions.copy()
         self.clear()
         self._positions.clear()
@@ -98,8 +83,14 @@ class YamlMapping(dict):    # type: ignore[type-arg]    # Python 3.8 has no dict
         self._positions.update(own_positions)
 
 
-class YamlSequence(list):   # type: ignore[type-arg]
-    """A sequence read from YAML: a ``list`` that knows its positions."""
+class YamlSequence(_Positioned, list):      # type: ignore[type-arg]
+    """
+    A sequence read from YAML: a ``list`` that knows its positions.
+
+    >>> from rocon_uri.sources.yaml_source import load
+    >>> load('[a, b]', 'f').item_position(1)
+    (1, 5)
+    """
 
     __slots__ = ('_start', '_positions')
 
@@ -108,23 +99,8 @@ class YamlSequence(list):   # type: ignore[type-arg]
         self._start = line, column
         self._positions = positions
 
-    @property
-    def position(self) -> Position:
-        """Where the sequence begins: (line, column)."""
-        return self._start[0] + 1, self._start[1] + 1
-
     def item_position(self, index: int) -> Position:
-        """
-        Where an item begins; if it is an alias, where that stands.
-
-        :param int index: which item
-        :returns: (int, int), line and column
-        :raises IndexError: if it was not read
-
-        >>> from rocon_uri.sources.yaml_source import load
-        >>> load('[a, b]', 'f').item_position(1)
-        (1, 5)
-        """
+        """Where an item, or the alias for it, begins; IndexError if it was not read."""
         line, column = self._positions[index]
         return line + 1, column + 1
 
@@ -152,10 +128,7 @@ def key_place(mapping: object, key: object) -> Place:
 
 def place_below(data: object, path: Sequence[object]) -> Place:
     """
-    Where in a text something is that keys and indices lead to.
-
-    :param data: what was read from the text
-    :param path: sequence of the keys and indices; none lead to the start of the text
+    Where in the text that data was read from a path of keys and indices leads.
 
     >>> from rocon_uri.sources.yaml_source import load
     >>> place_below(load('a: [b, c]', 'f'), ['a', 1])
