@@ -1,4 +1,4 @@
-"""What stands in the way of launching the providers of a plan."""
+"""The faults that prevent the launch of the providers of a plan."""
 from __future__ import annotations
 
 import os
@@ -12,8 +12,8 @@ from rocon_uri.sources.launch_file import LaunchFile
 
 __all__ = ['Launches', 'LookAt']
 
-#: As `LaunchFiles.look_at`: the name of a launch file and the folder that it is relative to. What
-#: it says is None where the file was never read, and is not to be read now.
+#: As `LaunchFiles.look_at`: takes the name of a launch file and the folder that it is relative to.
+#: It returns None for a file that was never read, and is not to be read now.
 LookAt = Callable[[str, str], Optional[LaunchFile]]
 
 
@@ -24,18 +24,18 @@ class _Launch(NamedTuple):
     capability: str
     #: its name
     provider: str
-    #: what was asked for, and led here
+    #: the capability that was asked for, and needs it
     asked_for: str
 
 
 class Launches:
     """
-    The providers that a plan launches, and the faults of it.
+    The providers that a plan launches, and the faults found.
 
-    A launch file is relative to the folder of the provider's spec. roslaunch can run each only
-    once at a time, since the names of its nodes would be there twice.
+    A launch file is relative to the folder of the provider's spec. It cannot run twice at a time,
+    since the names of its nodes would clash.
 
-    :param SpecIndex spec_index: where the specs are from
+    :param SpecIndex spec_index: the index that has the specs
     :param running: iterable of `RunningProvider`, whose launch files are in use
     :param look_at: says what is against a launch file; None where that does not matter
     :param bool nodelet_manager: is there one?
@@ -58,7 +58,7 @@ class Launches:
         """
         Add a provider.
 
-        :returns: str, where its launch file is; None if it has none, or none that is there
+        :returns: str, the real path of its launch file; None if it has none, or it does not exist
         """
         launch = _Launch(capability, spec.name, asked_for)
         if spec.nodelet_manager and not self._nodelet_manager:
@@ -79,7 +79,7 @@ class Launches:
         return file.real_path
 
     def all_faults(self) -> List[Fault]:
-        """The faults of what was added, then the launch files that are shared."""
+        """The faults of the single providers, then of launch files that several of them share."""
         return self._faults + [fault for path in self._launched for fault in self._shared(path)]
 
     def _shared(self, path: str) -> Iterable[Fault]:

@@ -23,7 +23,7 @@ class RunningProvider(NamedTuple):
     provider: str
     #: the `LaunchFile.real_path` of what it runs; None where it has no launch file
     launch_file: Optional[str] = None
-    #: does it stop? Then no plan shares it, but its launch file is still in use.
+    #: is it being stopped? Then no plan shares it, but its launch file is still in use.
     ends: bool = False
 
 

@@ -11,30 +11,30 @@ from capabilities.spec_index import SpecIndex
 
 __all__ = ['Planner']
 
-#: How many names the near misses of one plan may be looked for among, at up to 60 us each; the
-#: faults that are met after that have none.
+#: How many names one plan may be compared with to find near misses, at up to 60 us each. Faults
+#: that are met after that have none.
 _MAX_COMPARED = 5000
 
 
 class _Instance(NamedTuple):
-    """An instance of a capability, that runs or has to be started."""
+    """An instance of a capability, which is running or has to be started."""
 
     #: what the provider implements
     capability: str
     #: its name
     provider: str
-    #: is there one already?
+    #: is it running?
     running: bool
 
 
 class _Need(NamedTuple):
-    """A capability that something needs."""
+    """A capability that is needed."""
 
     #: its name
     capability: str
     #: the provider that is preferred; '' or None where any will do
     preferred: Optional[str]
-    #: what was asked for, and led here
+    #: the capability that was asked for, and needs this one
     asked_for: str
     #: the provider that depends on it; None for what was asked for
     required_by: Optional[str] = None
@@ -44,7 +44,7 @@ class Planner:
     """
     The providers chosen so far, and what they depend on.
 
-    :param SpecIndex spec_index: what there is
+    :param SpecIndex spec_index: the specs to choose from
     :param defaults: mapping from capabilities to their default providers, both str
     :param running: iterable of `RunningProvider`
     """
@@ -68,7 +68,7 @@ class Planner:
         self._compared = 0
 
     def add(self, asked_for: str, preferred: Optional[str] = None) -> None:
-        """Find an instance of a capability, and of all that it depends on."""
+        """Find an instance for a capability, and for all that it depends on."""
         waiting: List[Tuple[_Need, Optional[_Instance]]] = [
             (_Need(asked_for, preferred, asked_for), None)]
         while waiting:
@@ -82,7 +82,7 @@ class Planner:
             if instance not in self._dependencies:
                 self._dependencies[instance] = []
                 self._first_need[instance] = need
-                if not instance.running:    # no fault is looked for below what runs
+                if not instance.running:    # what a running one depends on is not checked
                     needed = self.specs[instance.provider].dependencies.values()
                     waiting += [(_Need(one.capability_name, one.preferred_provider, asked_for,
                                        instance.provider), instance)
@@ -90,7 +90,7 @@ class Planner:
 
     def choose(self, capability: str, preferred: Optional[str], asked_for: str,
                required_by: Optional[str] = None) -> Union[str, Fault]:
-        """The provider for a capability, or the fault that there is none."""
+        """The provider of a capability, or the fault why there is none."""
         def fault(kind: FaultKind, provider: Optional[str] = None,
                   implements: Optional[str] = None, candidates: Tuple[str, ...] = (),
                   semantic_candidates: Tuple[str, ...] = (),
@@ -146,13 +146,13 @@ class Planner:
                          tuple(launches.unread))
 
     def _instance(self, need: _Need) -> Union[_Instance, Fault]:
-        """What a need is met by: an instance that there is, whatever its provider, or a new one."""
+        """The instance that meets a need: an existing one, whatever its provider, or a new one."""
         running = self._instances.get(need.capability)
         if running is not None and not need.preferred:
             return running
         chosen = self.choose(*need)
         if isinstance(chosen, Fault):
-            # To ask for a provider that cannot be is a fault of who asks; a dependency is there.
+            # A request for a bad provider is refused. A dependency is met: it is running.
             return chosen if running is None or need.required_by is None else running
         implements = str(self.specs[chosen].implements)
         shared = self._instances.get(implements, running)
@@ -163,12 +163,12 @@ class Planner:
         return _Instance(implements, chosen, False)
 
     def _alike(self, names: Collection[str]) -> Collection[str]:
-        """Those among which a near miss is looked for."""
+        """The names among which a near miss is looked for: none after too many comparisons."""
         self._compared += len(names)
         return names if self._compared <= _MAX_COMPARED else ()
 
     def _candidates_for(self, capability: str) -> Tuple[str, ...]:
-        if capability not in self._candidates:  # once, since many may ask for one that has many
+        if capability not in self._candidates:  # once: many may ask for one with many providers
             self._candidates[capability] = tuple(self._spec_index.providers_of(capability))
         return self._candidates[capability]
 
@@ -177,7 +177,7 @@ class Planner:
                      if redefined == capability for provider in self._candidates_for(name))
 
     def _conflicts(self) -> List[Fault]:
-        """Several providers that would have to run for one capability, or are preferred for it."""
+        """The capabilities for which several providers would have to run, or are preferred."""
         chosen: Dict[str, Dict[str, None]] = {}
         for instance in self._dependencies:
             if not instance.running:
