@@ -28,11 +28,10 @@ from catkin_pkg.package import Package as CatkinPackage
 
 from capabilities.spec_index import (
     DuplicateNameException, InterfaceNameNotFoundException, SpecIndex)
-from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import capability_interface_from_file_path
 from capabilities.specs.provider import capability_provider_from_file_path
 from capabilities.specs.semantic_interface import semantic_capability_interface_from_file_path
-from rocon_uri.sources.located import Fault
+from rocon_uri.sources.located import Fault, LocatedError
 from rocon_uri.sources.packages import (
     Package, PackageError, as_package, find_packages, read_manifest)
 
@@ -60,11 +59,9 @@ def package_index_from_package_path(
 
     :param package_paths: the folders, an iterable of str, or one str. A package in an earlier one
         hides those of its name in later ones.
-    :param list errors: what is wrong is appended to it, as `PackageError`: a package.xml that is
-        not valid, and a second package of one name below the same folder.
-        It is logged in any case.
-    :returns: dict from the name to the ``catkin_pkg.package.Package``, whose ``filename`` is the
-        absolute path of its package.xml
+    :param list errors: a `PackageError` is appended to it for each package.xml that is not valid,
+        and for a second package of one name below the same folder. All are logged in any case.
+    :returns: dict of ``catkin_pkg.package.Package`` by name; the ``filename`` of each is absolute
 
     >>> package_index_from_package_path(['no/such/folder'])
     {}
@@ -92,16 +89,15 @@ def catkin_package(manifest: str) -> CatkinPackage:
 
     :param str manifest: the file
     :returns: ``catkin_pkg.package.Package``
-    :raises PackageError: if catkin_pkg does not take it for valid
+    :raises PackageError: if catkin_pkg refuses it
 
     >>> catkin_package('test/workspace/src/home_navigation/package.xml').version
     '1.0.0'
     """
+    text = read_manifest(manifest)
     try:
         # Its warnings are for those who build the package.
-        return parse_package_string(read_manifest(manifest), manifest, warnings=[])
-    except PackageError:
-        raise
+        return parse_package_string(text, manifest, warnings=[])
     except InvalidPackage as error:
         raise PackageError(' '.join(error.msg.split()), manifest) from error
     except Exception as error:  # parse_package_string has asserts, int() and recursion in it
@@ -140,7 +136,7 @@ def spec_index_from_spec_file_index(
     order of the packages and their exports.
 
     :param spec_file_index: dict as `spec_file_index_from_package_index` returns
-    :returns: (`SpecIndex`, list of the errors). A spec that is left out is there as
+    :returns: (`SpecIndex`, list of the errors). For each spec that is left out it has an
 
         - `OSError`, if its file cannot be read,
         - `capabilities.specs.common.InvalidSpec`, if it is not valid, or has the name of another
@@ -160,8 +156,7 @@ def spec_index_from_spec_file_index(
             for path in spec_files.get(tag, ()):
                 try:
                     add(read(path), path, package_name)
-                except (OSError, InvalidSpec, DuplicateNameException,
-                        InterfaceNameNotFoundException) as error:
+                except (OSError, LocatedError) as error:
                     errors.append(error)
 
     add_all('capability_interface', capability_interface_from_file_path, index.add_interface)

@@ -7,9 +7,10 @@ digraph capabilities {
 """
 from __future__ import annotations
 
-from typing import Collection, Dict, List, Mapping, NamedTuple, Optional
+from typing import TYPE_CHECKING, Collection, Dict, List, Mapping, NamedTuple, Optional
 
-TYPE_CHECKING = False
+from rocon_uri.sources.wording import printable
+
 if TYPE_CHECKING:
     from capabilities.spec_index import SpecIndex
     from rocon_uri.apps.rapp import Rapp
@@ -68,11 +69,7 @@ _EDGE_STYLES = {
 
 def spec_graph(spec_index: SpecIndex, rapps: Mapping[str, Rapp]) -> SpecGraph:
     """
-    The graph of all that packages export.
-
-    :param spec_index: `capabilities.discovery.SpecIndex`
-    :param rapps: mapping of `rocon_uri.rapp.Rapp` by name
-    :returns: `SpecGraph`
+    The graph of all that packages export; the rapps are given by name.
 
     >>> from capabilities.spec_index import SpecIndex
     >>> from rocon_uri.apps.rapp import rapp_from_string
@@ -104,12 +101,9 @@ def spec_graph(spec_index: SpecIndex, rapps: Mapping[str, Rapp]) -> SpecGraph:
 
 def dot_text(graph: SpecGraph, running: Collection[str] = ()) -> str:
     """
-    The graph in the language of graphviz.
+    The graph in the language of graphviz, the content of a ``.dot`` file.
 
-    :param SpecGraph graph: what to draw
-    :param running: collection of str, the names of the capabilities and providers that run, which
-        have a thick green outline
-    :returns: str, the content of a ``.dot`` file
+    The capabilities and providers that are running have a thick green outline.
 
     >>> print(dot_text(SpecGraph({'ours/Legs': Node('ours/Legs', 'interface')}, [])))
     digraph capabilities {
@@ -139,6 +133,5 @@ def dot_text(graph: SpecGraph, running: Collection[str] = ()) -> str:
 
 
 def _escaped(name: str) -> str:
-    """A name as it stands between double quotes; what no name has is made visible."""
-    printable = ''.join(c if c.isprintable() else repr(c)[1:-1] for c in name)
-    return printable.replace('\\', '\\\\').replace('"', '\\"')
+    """A name as it stands between double quotes."""
+    return printable(name).replace('\\', '\\\\').replace('"', '\\"')

@@ -64,11 +64,9 @@ class Workspace(NamedTuple):
 
     def interface(self, name: str) -> Optional[CapabilityInterface]:
         """
-        The interface of a name, as a client of it sees it.
+        An interface or semantic interface as its client sees it.
 
-        :param str name: that of an interface or of a semantic interface
-        :returns: `CapabilityInterface`; None if there is none, or if it does not fit what it
-            redefines
+        It is None if no package exports the name, or if it does not fit what it redefines.
         """
         capability = self.capabilities.get(name)
         if not isinstance(capability, SemanticCapabilityInterface):
@@ -80,23 +78,14 @@ class Workspace(NamedTuple):
 
 
 def read_workspace(paths: Iterable[str]) -> Workspace:
-    """
-    All that the packages below some folders export.
-
-    :param paths: as `rocon_uri.sources.packages.find_packages` takes them
-    :returns: `Workspace`
-    """
+    """All that the packages below some folders export."""
     faults: List[PackageError] = []
     return load_workspace(find_packages(paths, faults), faults)
 
 
 def load_workspace(packages: Mapping[str, Package], faults: Iterable[FileFault] = ()) -> Workspace:
     """
-    All that packages export that were found already.
-
-    :param packages: as `rocon_uri.sources.packages.find_packages` returns them
-    :param faults: what is known to be wrong; the first faults of what is returned
-    :returns: `Workspace`
+    All that packages export which were found already, with these faults.
 
     >>> load_workspace({}).rapps
     {}

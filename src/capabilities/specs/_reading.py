@@ -1,6 +1,4 @@
-"""
-How a spec is read: from a text to plain data, and what all three kinds of specs have in common.
-"""
+"""How specs are read: from a text to plain data, and what all three kinds have in common."""
 from __future__ import annotations
 
 from os import PathLike
@@ -24,16 +22,9 @@ _MAX_WARNINGS = 100     # of unknown keys: a text with more is something else
 
 class SpecReading(Reading):
     """
-    One spec that is read. What every spec has is read first.
+    One spec that is read, as plain data. What every spec has is read first.
 
-    :param spec: what should be a spec, as plain data
-    :param str file_name: where it is from
-    :param str spec_type: the kind of spec that it should be
-    :param keys: the names of what a spec of that kind has, beside what all have
-    :param invalid: the subclass of `InvalidSpec` to raise
-
-    - ``spec``: `CheckedMapping`
-    - ``name``: str; ``description``: str or None
+    ``spec`` is the `CheckedMapping` of it. The parameters are those of `SpecLoader`.
     """
 
     def __init__(self, spec: object, file_name: str, spec_type: str, keys: Sequence[str],
@@ -63,7 +54,7 @@ class SpecReading(Reading):
         return len(self.warnings) < _MAX_WARNINGS
 
     def finished(self, spec: Spec) -> Spec:
-        """The spec that was read, with what is known about its reading."""
+        """The spec, with what is known of its reading; its warnings are logged."""
         spec.source = self.spec.data
         spec.file_name = self.file_name
         spec.warnings = tuple(self.warnings)
@@ -74,11 +65,11 @@ class SpecReading(Reading):
         return spec
 
     def required_text(self, key: str) -> str:
-        """The text that the spec must have by this name."""
+        """The text that the spec must have as the value of a key."""
         return self.spec.required_text(key, self.keys)
 
     def required_name(self, key: str) -> SpecName:
-        """The name of another spec that the spec must have by this name."""
+        """The name of another spec that the spec must have as the value of a key."""
         return self.spec_name(self.spec.required(key, self.keys), self.spec.value_place(key), key)
 
     def spec_name(self, value: object, place: Place, what: str) -> SpecName:
@@ -95,7 +86,7 @@ class SpecLoader(Generic[Spec]):
     Reads the specs of one kind, from a dict, a text or a file.
 
     :param str spec_type: the kind
-    :param keys: the names of what a spec of that kind has, beside what all have
+    :param keys: the keys that a spec of that kind may have, beside those of every spec
     :param invalid: the subclass of `InvalidSpec` to raise
     :param make: makes the spec of a `SpecReading`
     """
@@ -114,8 +105,7 @@ class SpecLoader(Generic[Spec]):
         :param dict spec: what a file would hold
         :param str file_name: the name that errors give
         :returns: the spec
-        :raises InvalidSpec: if the spec is not complete or has invalid entries; it is the subclass
-            for this kind of spec
+        :raises InvalidSpec: (the subclass for this kind) if it is not complete or not valid
         """
         reading = SpecReading(spec, file_name, self._spec_type, self._keys, self._invalid)
         return reading.finished(self._make(reading))
@@ -136,9 +126,8 @@ class SpecLoader(Generic[Spec]):
 
     def from_file(self, file_handle: Union[IO[str], IO[bytes]]) -> Spec:
         """
-        Read the spec in an open file.
+        Read the spec in a file that is open for reading, as text or binary.
 
-        :param file_handle: open for reading, as text or binary
         :returns: the spec
         :raises InvalidSpec: as `from_dict`, or if the text is not YAML
         :raises OSError: if the file cannot be read
@@ -153,9 +142,8 @@ class SpecLoader(Generic[Spec]):
 
     def from_file_path(self, file_path: Union[str, PathLike[str]]) -> Spec:
         """
-        Read the spec in a file.
+        Read the spec in the file of this path.
 
-        :param str file_path: where the file is
         :returns: the spec
         :raises InvalidSpec: as `from_dict`, or if the text is not YAML
         :raises OSError: if the file does not exist or cannot be read

@@ -24,12 +24,7 @@ class InvalidSpec(LocatedError, ValueError):
     """
     A capability spec that is not complete, or has an entry that cannot be used.
 
-    :param str problem: what is wrong, without the place
-    :param str file_name: where the spec is from
-    :param int line: where in it, counted from 1; ``None`` if it is not from a text
-    :param int column: counted from 1, or ``None``
-
-    The attributes have the names of the parameters.
+    Parameters and attributes are those of `rocon_uri.sources.located.LocatedError`.
 
     >>> print(InvalidSpec("topic 'scan' has no type", 'laser.yaml', 12, 5))
     laser.yaml:12:5: topic 'scan' has no type
@@ -44,7 +39,7 @@ class InvalidSpec(LocatedError, ValueError):
 @dataclass(frozen=True)
 class SpecWarning(Located):
     """
-    Something in a spec that is odd, and ignored.
+    Something odd in a spec, which is ignored.
 
     >>> print(SpecWarning("unknown key 'colour'", 'laser.yaml', 3, 1))
     laser.yaml:3:1: unknown key 'colour'
@@ -93,11 +88,7 @@ class SpecName(str):
 
 def validate_spec_name(name: str) -> SpecName:
     """
-    The name of a spec, checked.
-
-    :param str name: ``package/name``
-    :returns: `SpecName`
-    :raises ValueError: if it is not of that form
+    The name of a spec, checked. Parameter, result and error are those of `SpecName`.
 
     >>> validate_spec_name('a_package/RGBCamera').package
     'a_package'
@@ -107,11 +98,7 @@ def validate_spec_name(name: str) -> SpecName:
 
 def split_spec_name(name: str) -> Tuple[str, str]:
     """
-    The two parts of the name of a spec: the package, and the name within it.
-
-    :param str name: ``package/name``
-    :returns: (str, str)
-    :raises ValueError: if it is not of that form
+    The package and the name within it (str each) of the name of a spec, as `SpecName` checks it.
 
     >>> split_spec_name('a_package/RGBCamera')
     ('a_package', 'RGBCamera')
@@ -129,7 +116,7 @@ class CapabilitySpec:
     - ``spec_version`` (int): 1
     - ``description`` (str): ``'No description given.'`` if there is none
     - ``file_name`` (str or None): where it was read from
-    - ``source`` (dict or None): the data that it was read from; if those are from a text, a
+    - ``source`` (dict or None): the data that it was read from; where that is from a text, a
       `rocon_uri.sources.yaml_data.YamlMapping`, which knows its lines
     - ``warnings`` (tuple of `SpecWarning`): what was odd in it
     """
@@ -145,11 +132,7 @@ class CapabilitySpec:
         self.warnings: Tuple[SpecWarning, ...] = ()
 
     def to_dict(self) -> Dict[str, object]:
-        """
-        The spec as plain data, in the order of the file.
-
-        :returns: dict, from which ``..._from_dict`` makes an equal spec
-        """
+        """The spec as plain data (dict), from which ``..._from_dict`` makes an equal spec."""
         head: Dict[str, object] = {
             'name': str(self.name), 'spec_version': self.spec_version, 'spec_type': self.spec_type}
         if self.description != NO_DESCRIPTION:
@@ -157,11 +140,7 @@ class CapabilitySpec:
         return head
 
     def to_yaml(self) -> str:
-        """
-        The spec as the text of a file.
-
-        :returns: str, from which ``..._from_string`` makes an equal spec
-        """
+        """The text of a file (str), from which ``..._from_string`` makes an equal spec."""
         import yaml     # here, since specs can be made and compared without it
         text: str = yaml.safe_dump(self.to_dict(), sort_keys=False, default_flow_style=False)
         return text

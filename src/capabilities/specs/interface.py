@@ -76,11 +76,6 @@ class CapabilityInterface(Interface, CapabilitySpec):
         return self
 
     def to_dict(self) -> Dict[str, object]:
-        """
-        The spec as plain data, in the order of the file.
-
-        :returns: dict, from which `capability_interface_from_dict` makes an equal spec
-        """
         sections: Dict[str, Any] = {}
         for section, name, element, grouping in self.elements():
             elements = sections.setdefault(section, {})

@@ -1,6 +1,4 @@
-"""
-The sections of a capability interface: topics, services, actions and parameters, by grouping.
-"""
+"""The sections of a capability interface: topics, services, actions, parameters, by grouping."""
 from __future__ import annotations
 
 from typing import Dict, Iterator, List, Optional, Tuple
@@ -25,12 +23,11 @@ class InterfaceElement:
 
     :param str name: its ROS name
     :param str element_kind: ``'topic'``, ``'service'``, ``'action'``, ``'parameter'`` or
-        ``'dynamic_parameter'``
-    :param str element_type: ``package/Type``, or the type of a parameter; ``None`` if there is none
+        ``'dynamic_parameter'``; the attribute is ``kind``
+    :param str element_type: ``package/Type``, or the type of a parameter; ``None`` if there is
+        none; also the attribute ``type``
     :param str description: free text; ``None`` gives ``'No description given.'``
-    :raises ValueError: if the kind is none of these
-
-    The attributes are ``name``, ``kind``, ``type`` (and ``element_type``) and ``description``.
+    :raises ValueError: if the kind is another
 
     >>> InterfaceElement('scan', 'topic', 'sensor_msgs/LaserScan').type
     'sensor_msgs/LaserScan'
@@ -119,8 +116,8 @@ class Interface:
         :param str topic_name: its name
         :param InterfaceElement interface_element: what it is
         :param str grouping: ``'requires'``, ``'provides'`` or ``None``
-        :raises ValueError: if the grouping is another; or if it is ``None`` and the name is that
-            of a grouping, since a file cannot express that
+        :raises ValueError: if the grouping is another, or the name is that of a grouping and there
+            is none: a file cannot express that
         :raises RuntimeError: if the interface has a topic of that name
         """
         self.add_element('topics', topic_name, interface_element, grouping)
@@ -141,12 +138,7 @@ class Interface:
         self.add_element('parameters', parameter_name, interface_element, grouping)
 
     def add_dynamic_parameter(self, dynamic_parameter_name: str) -> None:
-        """
-        Add a dynamic parameter.
-
-        :param str dynamic_parameter_name: its name
-        :raises RuntimeError: if the interface has a dynamic parameter of that name
-        """
+        """Add a dynamic parameter (str, its name); RuntimeError if the interface has it already."""
         if dynamic_parameter_name in self._dynamic_parameters:
             raise RuntimeError('dynamic_parameter %s is already in the interface'
                                % shown(dynamic_parameter_name))
@@ -155,13 +147,10 @@ class Interface:
     def add_element(self, section: str, name: str, element: InterfaceElement,
                     grouping: Optional[str] = None) -> None:
         """
-        Add an element to a section. Errors are those of `add_topic`.
+        Add an element to a section. Parameters and errors are those of `add_topic`.
 
         :param str section: ``'topics'``, ``'services'``, ``'actions'`` or ``'parameters'``
-        :param str name: its name
-        :param InterfaceElement element: what it is
-        :param str grouping: ``'requires'``, ``'provides'`` or ``None``
-        :raises KeyError: if there is no such section
+        :raises KeyError: if it is another
         """
         if grouping is None and name in GROUPINGS:
             raise ValueError('a name cannot be %s outside of a grouping' % quoted(name))
@@ -175,10 +164,9 @@ class Interface:
 
     def elements(self) -> Iterator[Tuple[str, str, InterfaceElement, Optional[str]]]:
         """
-        All elements that have a type.
+        All elements that have a type: an iterator of (section, name, element, grouping).
 
-        :returns: iterator of (section, name, element, grouping), as ``('topics', 'scan',
-            <InterfaceElement>, 'provides')``
+        For example ``('topics', 'scan', <InterfaceElement>, 'provides')``.
         """
         for section, elements in self._elements.items():
             for name, (element, grouping) in elements.items():

@@ -36,11 +36,9 @@ class DependsOnRelationship:
     """
     A capability that a provider depends on.
 
-    :param str capability_name: the name of its interface
-    :param str preferred_provider: the name of the provider to run it with, or ``None``
-
-    The attributes are ``name`` (and ``capability_name``) and ``provider`` (and
-    ``preferred_provider`` and ``provider_preference``).
+    :param str capability_name: the name of its interface; also the attribute ``name``
+    :param str preferred_provider: the name of the provider to run it with, or ``None``; also the
+        attributes ``provider`` and ``provider_preference``
 
     >>> print(DependsOnRelationship('a_package/Laser', 'b_package/hokuyo'))
     a_package/Laser:
@@ -61,10 +59,7 @@ class DependsOnRelationship:
         """The same as ``provider``."""
         return self.provider
 
-    @property
-    def provider_preference(self) -> Optional[str]:
-        """The same as ``provider``."""
-        return self.provider
+    provider_preference = preferred_provider
 
     def __str__(self) -> str:
         return '%s:\n    preferred provider: %s' % (self.name, self.provider)
@@ -77,8 +72,8 @@ class CapabilityProvider(RemappingSpec):
     :param str name: its name
     :param int spec_version: the version of the specification, 1
     :param str implements: the name of the interface that it provides
-    :param str launch_file: the path of the launch file that runs it, relative to the folder of
-        its spec; ``None`` if there is nothing to run
+    :param str launch_file: the launch file that runs it, a path relative to the folder of its spec;
+        ``None`` if there is nothing to run
     :param str description: free text; ``None`` gives ``'No description given.'``
     :param dict remappings: new names by name, by kind (``{'topics': {'scan': 'laser/scan'}}``)
     :param str nodelet_manager: the name of the nodelet manager that it uses, or ``None``
@@ -110,21 +105,14 @@ class CapabilityProvider(RemappingSpec):
         return dict(self._dependencies)
 
     def depends_on(self, capability_name: str) -> bool:
-        """
-        Does it depend on this capability?
-
-        :param str capability_name: the name of an interface
-        :returns: bool
-        """
+        """Does it depend on the interface of this name (str)? Returns bool."""
         return capability_name in self._dependencies
 
     def add_depends_on(self, capability_name: str, preferred_provider: Optional[str] = None
                        ) -> None:
         """
-        Add a capability that it depends on.
+        Add a capability that it depends on. Parameters are those of `DependsOnRelationship`.
 
-        :param str capability_name: the name of an interface
-        :param str preferred_provider: the name of the provider to run it with, or ``None``
         :raises ValueError: if a name is not of the form ``package/name``
         :raises RuntimeError: if it depends on that capability already
         """
@@ -135,11 +123,6 @@ class CapabilityProvider(RemappingSpec):
         self._dependencies[name] = DependsOnRelationship(name, provider)
 
     def to_dict(self) -> Dict[str, object]:
-        """
-        The spec as plain data, in the order of the file.
-
-        :returns: dict, from which `capability_provider_from_dict` makes an equal spec
-        """
         data = super().to_dict()
         data['implements'] = str(self.implements)
         if self.launch_file is not None:

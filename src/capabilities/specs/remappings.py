@@ -32,10 +32,9 @@ class RemappingSpec(CapabilitySpec):
                  remappings: Optional[Mapping[str, Mapping[str, str]]]) -> None:
         super().__init__(name, spec_version, description)
         self._remappings: Dict[str, str] = {}
-        self._remappings_by_type: Dict[str, Dict[str, str]] = {
-            'topics': {}, 'services': {}, 'actions': {}, 'parameters': {}}
+        self._remappings_by_type: Dict[str, Dict[str, str]] = {kind: {} for kind in REMAPPING_KINDS}
         for kind, new_names in (remappings or {}).items():
-            _check_kind(kind)
+            _check_kind(kind)       # there may be no names
             for old_name, new_name in new_names.items():
                 self.add_remapping(kind, old_name, new_name)
 
@@ -46,8 +45,7 @@ class RemappingSpec(CapabilitySpec):
 
     @property
     def remappings_by_type(self) -> Dict[str, Dict[str, str]]:
-        """The remappings of each kind: a new dict that always has the keys ``'topics'``,
-        ``'services'``, ``'actions'`` and ``'parameters'``."""
+        """The remappings of each of the four kinds: a new dict of new dicts."""
         return {kind: dict(new_names) for kind, new_names in self._remappings_by_type.items()}
 
     def add_remapping(self, kind: str, name: str, new_name: str) -> None:
@@ -57,7 +55,7 @@ class RemappingSpec(CapabilitySpec):
         :param str kind: ``'topics'``, ``'services'``, ``'actions'`` or ``'parameters'``
         :param str name: a ROS name of the interface
         :param str new_name: what it is called instead
-        :raises ValueError: if the kind is none of these
+        :raises ValueError: if the kind is another
         :raises RuntimeError: if the name is remapped to something else
         """
         _check_kind(kind)
@@ -81,13 +79,7 @@ def _check_kind(kind: str) -> None:
 
 
 def read_remappings(reading: SpecReading, spec: RemappingSpec) -> None:
-    """
-    Add the remappings that a spec has in its file.
-
-    :param reading: `capabilities.specs._reading.SpecReading`
-    :param spec: the spec to add them to
-    :raises InvalidSpec: if one cannot be used
-    """
+    """Add the remappings that a spec has in its file; InvalidSpec if one cannot be used."""
     kinds = reading.spec.mapping('remappings')
     for kind in kinds:
         if kind not in REMAPPING_KINDS:

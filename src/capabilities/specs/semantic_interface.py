@@ -73,9 +73,9 @@ class SemanticCapabilityInterface(RemappingSpec):
         """
         The interface that a client of this semantic interface sees.
 
-        Every ROS name goes into the global namespace (``camera/image`` to ``left/camera/image``,
-        ``/cmd_vel`` to ``/left/cmd_vel``) but for those that are remapped, and private names.
-        Dynamic parameters stay as they are.
+        Names that are remapped get their new names. All others but private ones go into the global
+        namespace: ``camera/image`` becomes ``left/camera/image``, ``/cmd_vel`` becomes
+        ``/left/cmd_vel``. Dynamic parameters stay as they are.
 
         :param CapabilityInterface interface: the one that this one redefines
         :returns: `capabilities.specs.interface.CapabilityInterface` of this one's name
@@ -109,11 +109,6 @@ class SemanticCapabilityInterface(RemappingSpec):
         return resolved
 
     def to_dict(self) -> Dict[str, object]:
-        """
-        The spec as plain data, in the order of the file.
-
-        :returns: dict, from which `semantic_capability_interface_from_dict` makes an equal spec
-        """
         data = super().to_dict()
         data['redefines'] = str(self.redefines)
         if self.global_namespace is not None:
@@ -142,7 +137,7 @@ class SemanticCapabilityInterface(RemappingSpec):
                     raise self._error(section, [name], problem)
 
     def _error(self, section: str, names: Sequence[str], problem: str) -> InvalidSemanticInterface:
-        """The error of these names: at the first that is remapped, else at the namespace."""
+        """The error of these names, with the place of the first remapping, or of the namespace."""
         source = self.source or {}
         new_names = (source.get('remappings') or {}).get(section) or {}
         place = next((key_place(new_names, name) for name in names if name in new_names),

@@ -26,14 +26,7 @@ def say(text: str) -> None:
 
 
 class GivenURI:
-    """
-    A URI and the text that it was read from.
-
-    :param RoconURI uri: what it says
-    :param str text: as it was given
-    :param file: str, the name of the file that it stands in; None for an argument
-    :param line: int, the line there, from 1; None for an argument
-    """
+    """A URI and the text that it was read from; file and line (from 1) are None for an argument."""
 
     __slots__ = ('uri', 'text', 'file', 'line')
 
@@ -75,12 +68,10 @@ class GivenURI:
 
 class Report:
     """
-    What was bad: said on stderr as it is met, and kept where JSON is asked for.
+    What was bad: said on stderr when it is met, and kept where JSON is asked for.
 
-    :param bool json: keep it
-
-    ``errors`` is a list of ERROR, as ``rocon_uri --help`` describes it, and ``status`` the exit
-    status that all comes to: 2, or 0 while nothing was bad.
+    ``errors`` is a list of ERROR, as ``rocon_uri --help`` describes it. ``status`` is the exit
+    status, 0 until something was bad, then 2.
     """
 
     def __init__(self, json: bool) -> None:
@@ -90,14 +81,7 @@ class Report:
 
     def read(self, text: str, file: Optional[str] = None,
              line: Optional[int] = None) -> Optional[GivenURI]:
-        """
-        Read a URI.
-
-        :param str text: as it was given
-        :param file: as `GivenURI` takes
-        :param line: as `GivenURI` takes
-        :returns: GivenURI, or None for a text that is not legal, which is reported
-        """
+        """Read a URI; None for a text that is not legal, which is reported."""
         try:
             return GivenURI(parse(text), text, file, line)
         except RoconURIValueError as error:
@@ -106,13 +90,10 @@ class Report:
 
     def read_file(self, path: str) -> Iterator[List[GivenURI]]:
         """
-        Read a file of URIs, one a line.
+        Read a file of URIs, one a line; ``-`` is standard input.
 
-        Blank lines and those whose first character is ``#`` are skipped; so are those that are
-        not legal, but reported.
-
-        :param str path: the file, ``-`` for standard input
-        :returns: iterator of lists of GivenURI, each of what can be had without waiting
+        Blank lines and those whose first character is ``#`` are skipped. Those that are not legal
+        are reported. Each list that is yielded is what can be had without waiting.
         """
         name = '<stdin>' if path == '-' else path
         numbers = itertools.count(1)
@@ -133,13 +114,7 @@ class Report:
 
     def bad_uri(self, error: RoconURIValueError, file: Optional[str] = None,
                 line: Optional[int] = None) -> None:
-        """
-        Report a fault in a URI.
-
-        :param RoconURIValueError error: what is wrong
-        :param file: as `GivenURI` takes
-        :param line: as `GivenURI` takes
-        """
+        """Report a fault in a URI."""
         if file is None:
             say('rocon_uri: ' + error.pretty())
         else:

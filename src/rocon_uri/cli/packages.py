@@ -5,7 +5,7 @@ import os
 import sys
 
 from rocon_uri.cli.given import Report, say
-from rocon_uri.sources.wording import quoted_path
+from rocon_uri.sources import wording
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -28,16 +28,12 @@ def add_package_path(parser: argparse.ArgumentParser) -> None:
 
 def printable(text: object) -> str:
     """
-    What somebody wrote into a file, fit for a terminal.
-
-    :param text: anything
-    :returns: str of one line without control characters, in which white space is one blank
+    What somebody wrote into a file, on one line: no control characters, white space is one blank.
 
     >>> printable('Dance\\x1b[31m\\n')
     'Dance\\\\x1b[31m'
     """
-    line = ' '.join(str(text).split())
-    return ''.join(c if c.isprintable() else repr(c)[1:-1] for c in line)
+    return wording.printable(' '.join(str(text).split()))
 
 
 def shortened(text: str) -> str:
@@ -51,23 +47,12 @@ class PackageReport(Report):
 
     def bad(self, message: str, file: Optional[str] = None, line: Optional[int] = None,
             suggestions: Sequence[str] = ()) -> None:
-        """
-        Report a fault.
-
-        :param str message: one line
-        :param file: str, where it is, if it is in a file; the message has it, too
-        :param line: int, the line there, from 1
-        :param suggestions: sequence of str, what was probably meant
-        """
+        """Report a fault in one line; a message about a file names it, too."""
         say(message if file else 'rocon_uri: ' + message)
         self.note(message, file, line, suggestions)
 
     def bad_file(self, fault: Fault) -> None:
-        """
-        Report what discovery or the reading of a file has found.
-
-        :param fault: OSError, or an error with the attributes ``file_name`` and ``line``
-        """
+        """Report what discovery or the reading of a file has found."""
         if isinstance(fault, OSError):
             file = os.fsdecode(fault.filename or '')
             self.bad('%s: %s' % (printable(file), fault.strerror or fault), file)
@@ -77,14 +62,7 @@ class PackageReport(Report):
 
 def package_path(args: argparse.Namespace, report: PackageReport,
                  is_needed: bool = True) -> List[str]:
-    """
-    The folders to look for packages in.
-
-    :param args: those of the verb, which took `add_package_path`
-    :param report: gets the folders of --package-path that do not exist
-    :param bool is_needed: is it reported if none were given?
-    :returns: list of str
-    """
+    """The folders to look for packages in; bad ones are reported, and the lack of a needed one."""
     text = args.package_path
     if text is None:
         text = os.environ.get('ROS_PACKAGE_PATH', '')   # often names folders that do not exist
@@ -94,17 +72,12 @@ def package_path(args: argparse.Namespace, report: PackageReport,
     if args.package_path is not None:
         for folder in folders:
             if not os.path.isdir(folder):
-                report.bad('%s is not a directory' % quoted_path(folder))
+                report.bad('%s is not a directory' % wording.quoted_path(folder))
     return folders
 
 
 def workspace(args: argparse.Namespace) -> Tuple[PackageReport, Workspace]:
-    """
-    All that the packages on the package path export.
-
-    :param args: those of the verb, which took `add_package_path`
-    :returns: (`PackageReport`, which has their faults, `rocon_uri.workspace.Workspace`)
-    """
+    """All that the packages on the package path export, with a report of their faults."""
     from rocon_uri.workspace import read_workspace  # here, since it loads catkin_pkg and YAML
     escape_unencodable()
     quiet_loggers()

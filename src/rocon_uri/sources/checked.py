@@ -1,8 +1,8 @@
 """
 What strangers wrote, read key by key: each refusal has its place and says what was expected.
 
-A `Reading` is of one file. It reads the file, and decides what becomes of a fault: it raises the
-first one. A `CheckedMapping` is asked for what should be in it:
+A `Reading` reads one file, and decides what becomes of a fault: it raises the first one. A
+`CheckedMapping` is asked for what should be in it:
 
 >>> from rocon_uri.sources.yaml_data import YamlError
 >>> reading = Reading('dance.rapp', YamlError)
@@ -42,8 +42,7 @@ class Reading:
     One file that is read, and what becomes of its faults: the first one is raised.
 
     :param str file_name: the file, as errors name it
-    :param error: what makes the error to raise of (problem, file_name, line, column), such as a
-        subclass of `LocatedError`
+    :param error: makes the error to raise of (problem, file_name, line, column)
     """
 
     def __init__(self, file_name: str, error: Callable[..., LocatedError]) -> None:
@@ -71,11 +70,7 @@ class Reading:
         return meant or ' (expected %s)' % ', '.join(known)
 
     def data(self, content: Union[str, bytes]) -> object:
-        """
-        What a text holds, read as YAML.
-
-        :returns: as `rocon_uri.sources.yaml_source.load`; None if it was refused
-        """
+        """What a text holds, read as YAML; None if it was refused."""
         try:
             return load(content, self.file_name)
         except YamlError as error:
@@ -90,10 +85,9 @@ class Reading:
     def mapping(self, data: object, what: str, expected: str = 'a mapping',
                 place: Place = NOWHERE) -> CheckedMapping:
         """
-        Data as a mapping, in which no key may be repeated.
+        Data as a mapping, in which no key may be repeated; an empty one if it was refused.
 
-        :param place: where errors say that it is, if it does not know that itself
-        :returns: `CheckedMapping`; an empty one if it was refused
+        ``place`` is where errors say that data is which does not know it.
         """
         if not isinstance(data, dict):
             own_place = place_of(data)
@@ -133,11 +127,8 @@ class CheckedMapping:
     """
     A mapping that is read key by key.
 
-    :param Reading reading: what becomes of faults
-    :param dict data: plain data
-    :param str what: what errors call it
-    :param key: its own key, if that is its name. Errors then call what is in it by that name too:
-        ``type of topic 'scan'``
+    Where ``key``, its own key, is its name, errors call what is in it by that name too: ``type of
+    topic 'scan'``.
     """
 
     __slots__ = ('reading', 'data', '_what', '_key')
@@ -200,10 +191,9 @@ class CheckedMapping:
     def mapping(self, key: object, what: str = '', expected: str = 'a mapping',
                 is_checked: bool = True) -> CheckedMapping:
         """
-        The mapping that a key may have.
+        The mapping that a key may have; an empty one for nothing or ``[]``, or if it was refused.
 
-        :param bool is_checked: is a repeated key in it refused?
-        :returns: `CheckedMapping`; an empty one for nothing or ``[]``, or if it was refused
+        A repeated key in it is refused if ``is_checked``.
         """
         value = self.data.get(key)
         if not isinstance(value, dict):
@@ -226,11 +216,9 @@ class CheckedMapping:
 
     def required(self, key: str, known: Sequence[str] = ()) -> object:
         """
-        The value that a key must have, unread.
+        The value that a key must have, unread; None if it was refused.
 
-        :param str key: which
-        :param known: the keys that are known, to find the one that was misspelt
-        :returns: None if it was refused
+        A key that is not among those known may be this one, misspelt.
         """
         value = self.data.get(key)
         if value is not None:
@@ -246,7 +234,7 @@ class CheckedMapping:
         return None
 
     def required_text(self, key: str, known: Sequence[str] = ()) -> str:
-        """The text that a key must have; '' if it was refused. Parameters as in `required`."""
+        """The text that a key must have; '' if it was refused."""
         return '' if self.required(key, known) is None else self.text_at(key)
 
     def refuse_duplicates(self, harmless: Sequence[str] = ()) -> None:

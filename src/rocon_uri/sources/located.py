@@ -16,13 +16,12 @@ NOWHERE: Place = (None, None)
 
 def located(problem: str, file_name: str, line: Optional[int], column: Optional[int]) -> str:
     """
-    A problem with its place in front, in the form that editors know.
+    A problem with its place in front, in the form that editors know: a str of one line.
 
     :param str problem: what is wrong
     :param str file_name: where the text is from
     :param int line: counted from 1, or ``None`` where it is not known
     :param int column: counted from 1, or ``None``
-    :returns: str of one line
 
     >>> located("topic 'scan' has no type", 'laser.yaml', 12, 5)
     "laser.yaml:12:5: topic 'scan' has no type"
@@ -61,13 +60,8 @@ class LocatedError(Located, Exception):
     """
     An error that knows its place. It can be pickled.
 
-    :param str problem: what is wrong, without the place
-    :param str file_name: where the text is from
-    :param int line: where in it, counted from 1; ``None`` where it is in no text
-    :param int column: counted from 1, or ``None``
-    :param more: further arguments of a subclass, which its ``__init__`` takes by position
-
-    The attributes have the names of the parameters.
+    The parameters are those of `located`, and the attributes have their names. ``more`` are further
+    arguments of a subclass, which its ``__init__`` takes by position.
 
     >>> print(LocatedError("topic 'scan' has no type", 'laser.yaml', 12, 5))
     laser.yaml:12:5: topic 'scan' has no type

@@ -44,10 +44,9 @@ _NOTHING_BELOW = frozenset([MANIFEST, 'manifest.xml', 'rospack_nosubdirs'])
 
 class PackageError(LocatedError):
     """
-    A package that is left out: its manifest is faulty, or another package has its name.
+    A package that is left out: its manifest, ``file_name``, is faulty, or its name is taken.
 
-    Its attributes are those of `rocon_uri.sources.located.LocatedError`; ``file_name`` is its
-    ``package.xml``, and ``msg`` an earlier name of ``problem``.
+    Its attributes are those of `rocon_uri.sources.located.LocatedError`.
 
     >>> print(PackageError('no element found', 'a_package/package.xml', 3, 1))
     a_package/package.xml:3:1: no element found
@@ -66,9 +65,8 @@ class Export(NamedTuple):
     tag: str
     #: its attributes
     attributes: Dict[str, str]
-    #: The text in it, without white space around it, as the XML parser reads it: escapes and CDATA
-    #: are resolved, comments left out. An element in it is written ``<tag>``, so that what was
-    #: meant as a path is the path of no file.
+    #: The text in it, without white space around it: escapes and CDATA are resolved, comments left
+    #: out. An element in it is written ``<tag>``, so that no path leads to a file by accident.
     text: str
     #: where it begins, counted from 1, or None where that is not known
     line: Optional[int]
@@ -76,10 +74,9 @@ class Export(NamedTuple):
 
     def file(self, attribute: str = '') -> str:
         """
-        The file or folder that it names, relative to the package.
+        The file or folder that an attribute, or else the text, names; '' if it names none.
 
-        :param str attribute: which of its attributes names it; its text does where left out
-        :returns: str, '' if it names none; ``${prefix}`` is the folder of the package
+        It is relative to the package, whose folder is ``${prefix}``.
 
         >>> Export('rocon_uri', {'rules': '${prefix}/robots.yaml'}, '', 9, 5).file('rules')
         './robots.yaml'
@@ -102,11 +99,9 @@ class Package(NamedTuple):
 
     def files(self, tag: str, attribute: str = '') -> List[str]:
         """
-        The paths that it exports, whether they exist or not.
+        The paths that elements of this tag name, by an attribute (if they have it) or their text.
 
-        :param str tag: of the elements that name them
-        :param str attribute: as `Export.file` takes it; elements without it are skipped
-        :returns: list of str, absolute and normalised, in the order of the exports
+        They are absolute and normalised, in the order of the exports. They need not exist.
 
         >>> laser = Export('rocon_app', {}, 'rapps/scan.rapp', 9, 5)
         >>> Package('ours', '/src/ours', '/src/ours/package.xml', [laser]).files('rocon_app')
@@ -121,16 +116,15 @@ class Package(NamedTuple):
 def find_packages(paths: Iterable[str], errors: Optional[List[PackageError]] = None,
                   ) -> Dict[str, Package]:
     """
-    The packages below some folders.
+    The packages below some folders, by name.
 
-    :param paths: iterable of str, the folders. A package in an earlier one hides those of its name
-        in later ones.
-    :param list errors: what is wrong is appended to it, as `PackageError`: a manifest that cannot
-        be read, and a package whose name another one below the same folder has
-    :returns: dict of `Package` by name
+    A package in an earlier folder hides those of its name in later ones.
 
-    >>> find_packages(['no/such/folder'])
-    {}
+    :param list errors: what is wrong is appended to it: a manifest that cannot be read, and a
+        package whose name another one below the same folder has
+
+    >>> find_packages(['test/workspace'])['home_navigation'].exports[0].text
+    'providers/grid_navigation.yaml'
     """
     errors = [] if errors is None else errors
     packages: Dict[str, Package] = {}
@@ -152,15 +146,7 @@ def find_packages(paths: Iterable[str], errors: Optional[List[PackageError]] = N
 
 
 def package_folders(path: str) -> Iterator[str]:
-    """
-    The folders of packages below a path, itself included, in the order of their names.
-
-    :param str path: the folder to begin at; one that does not exist has no packages
-    :returns: iterator of str, absolute paths
-
-    >>> [os.path.basename(folder) for folder in package_folders('test/workspace/src')][:2]
-    ['dustbot_bringup', 'dustbot_capabilities']
-    """
+    """The absolute paths of package folders, from a folder downwards, in order of their names."""
     visited = set()
     waiting = [os.path.abspath(path)]
     while waiting:      # not os.walk, which recurses: a path can be 2,000 folders deep
@@ -196,8 +182,6 @@ def read_manifest(path: str) -> str:
     """
     The text of a package.xml.
 
-    :param str path: the file
-    :returns: str
     :raises PackageError: if it cannot be read, is too large, not UTF-8 or declares entities
     """
     try:
@@ -216,14 +200,9 @@ def read_manifest(path: str) -> str:
 
 def package_from_manifest(path: str) -> Package:
     """
-    The package of one manifest.
+    The package of one package.xml.
 
-    :param str path: a package.xml
-    :returns: `Package`
     :raises PackageError: if it cannot be read, is not XML, or has no name
-
-    >>> package_from_manifest('test/workspace/src/home_navigation/package.xml').name
-    'home_navigation'
     """
     path = os.path.abspath(path)
     reader = _ManifestReader(path)
@@ -296,11 +275,9 @@ class _ManifestReader:
 
 def as_package(package: Union[Package, CatkinPackage]) -> Package:
     """
-    A package as this module describes it.
+    A package of catkin_pkg as this module describes it; one of this module is returned as it is.
 
-    :param package: `Package`, which is returned as it is, or ``catkin_pkg.package.Package``. The
-        text of an export of the latter is XML still, and read as such where that is possible.
-    :returns: `Package`; the exports of a converted one have no place
+    catkin_pkg leaves the text of an export as XML, which is read here, and gives it no place.
     """
     if isinstance(package, Package):
         return package
@@ -312,11 +289,9 @@ def as_package(package: Union[Package, CatkinPackage]) -> Package:
 
 def _text_of(content: str) -> str:
     """The text of an element, given as the XML in it."""
-    if '<' in content or '&' in content:
-        reader = _ManifestReader('')
-        try:
-            reader.read('<package><export><_>%s</_></export></package>' % content)
-            return reader.exports[0].text
-        except PackageError:    # somebody made it who escaped nothing
-            pass
-    return content.strip()
+    reader = _ManifestReader('')
+    try:
+        reader.read('<package><export><_>%s</_></export></package>' % content)
+        return reader.exports[0].text
+    except PackageError:    # made by code that escaped nothing
+        return content.strip()

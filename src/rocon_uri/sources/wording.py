@@ -1,6 +1,4 @@
-"""
-How a text is shown in an error, and what was probably meant by it.
-"""
+"""How a text is shown in an error, and what was probably meant by it."""
 from __future__ import annotations
 
 TYPE_CHECKING = False
@@ -17,9 +15,6 @@ def quoted(text: str) -> str:
     """
     A text as an error shows it: in single quotes, on one line, and shortened if it is long.
 
-    :param str text: anything
-    :returns: str, printable and at most about 80 characters of the text
-
     >>> print(quoted('a' * 100 + chr(10)), quoted(chr(10)))
     'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa...' '\\n'
     """
@@ -29,24 +24,13 @@ def quoted(text: str) -> str:
 
 
 def quoted_path(path: str) -> str:
-    """
-    The path of a file as an error shows it: in single quotes, on one line, and whole.
-
-    :param str path: anything; as long as the system lets a path be
-    :returns: str, printable
-
-    >>> print(quoted_path('/home' + '/bob' * 20)[-9:])
-    /bob/bob'
-    """
+    """The path of a file as an error shows it: in single quotes, on one line, and whole."""
     return "'%s'" % printable(path)
 
 
 def printable(text: str) -> str:
     """
     A text on one line, in which characters that cannot be printed are escaped.
-
-    :param str text: anything
-    :returns: str
 
     >>> print(printable('a' + chr(10) + 'b'))
     a\\nb
@@ -56,11 +40,7 @@ def printable(text: str) -> str:
 
 def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
     """
-    The candidates that somebody probably meant by a text, the likeliest first.
-
-    :param str text: what was written
-    :param candidates: iterable of str, what could have been written
-    :returns: list of at most three str
+    The candidates that somebody probably meant by a text: at most three, the likeliest first.
 
     >>> near_misses('turtelbot2', ['kobuki', 'turtlebot', 'turtlebot2'])
     ['turtlebot2', 'turtlebot']
@@ -89,10 +69,7 @@ def near_names(name: str, names: Iterable[str]) -> List[str]:
 
 def did_you_mean(suggestions: Iterable[str]) -> str:
     """
-    The end of an error: what was probably meant.
-
-    :param suggestions: iterable of str, the likeliest first
-    :returns: str, empty if there are none
+    The end of an error: what was probably meant, the likeliest first; empty if there is nothing.
 
     >>> did_you_mean(['a_package/RGBCamera'])
     " (did you mean 'a_package/RGBCamera'?)"
@@ -104,9 +81,6 @@ def did_you_mean(suggestions: Iterable[str]) -> str:
 def shown(value: object) -> str:
     """
     A value that was read, as an error shows it: on one line, short and safe whatever it is.
-
-    :param value: anything
-    :returns: str
 
     >>> print(shown('laser'), shown(''), shown(True), shown(7), shown(['laser']))
     'laser' empty true 7 a list
