@@ -101,7 +101,8 @@ class World:
 
     def since(self, mark):
         """What was told since then, but for what is not sent."""
-        return [told for told in self.told[mark:] if told[0].startswith('tell')]
+        return [told for told in self.told[mark:]
+                if told[0] in ('launched', 'stopped', 'terminated')]
 
 
 class GraphAgainstModel(RuleBasedStateMachine):
@@ -300,7 +301,7 @@ def robot():
 
 def test_dependencies_are_launched_first(robot):
     assert robot.start('Patrol') is StartResult.SUCCESS
-    launched = [name for told, name in robot.told if told == 'tell launched']
+    launched = [name for told, name in robot.told if told == 'launched']
     assert launched == ['Base', 'Camera', 'Nav', 'Patrol']
 
 
@@ -350,9 +351,9 @@ def test_a_stop_is_forceful_and_in_order(robot):
     robot.stop('Base')
     robot.end_stopped()
     assert robot.since(mark) == [
-        ('tell stopped', 'Patrol'), ('tell stopped', 'Nav'), ('tell stopped', 'Base'),
-        ('tell terminated', 'Patrol'), ('tell stopped', 'Camera'), ('tell terminated', 'Nav'),
-        ('tell terminated', 'Camera'), ('tell terminated', 'Base')]
+        ('stopped', 'Patrol'), ('stopped', 'Nav'), ('stopped', 'Base'),
+        ('terminated', 'Patrol'), ('stopped', 'Camera'), ('terminated', 'Nav'),
+        ('terminated', 'Camera'), ('terminated', 'Base')]
     assert robot.states() == {} and robot.graph.failures == {}
 
 
@@ -371,7 +372,7 @@ def test_what_dies_ends_every_want_and_stops_its_dependents(robot):
     robot.end(robot.graph.current('Base'), exit_code=5)
     assert robot.states() == {'Nav': 'stopping', 'Patrol': 'stopping', 'Camera': 'launching'}
     robot.end_stopped()
-    assert robot.since(mark)[0] == ('tell terminated', 'Base')
+    assert robot.since(mark)[0] == ('terminated', 'Base')
     failure = robot.graph.failures['Base']
     assert (failure.exit_code, failure.text, failure.dependents) == (5, 'exit 5', ('Nav',))
     assert robot.graph.failures['Nav'].uses == 1
@@ -401,7 +402,7 @@ def test_a_use_of_what_stops_waits_for_its_end(robot):
     assert not robot.graph.current('Base').started
     mark = len(robot.told)
     robot.end_stopped()
-    assert robot.since(mark) == [('tell terminated', 'Base'), ('tell launched', 'Base')]
+    assert robot.since(mark) == [('terminated', 'Base'), ('launched', 'Base')]
 
 
 def test_a_dependent_of_what_stops_waits_too(robot):
@@ -477,7 +478,7 @@ def test_when_the_server_ends_nothing_more_is_started_or_stopped_one_by_one(robo
     mark = len(robot.told)
     robot.graph.end()
     robot.carry_out()
-    assert robot.since(mark) == [('tell stopped', 'Nav'), ('tell stopped', 'Base')]
+    assert robot.since(mark) == [('stopped', 'Nav'), ('stopped', 'Base')]
     assert robot.told_to_stop == []
     with pytest.raises(RefusedRequest, match='the capability server ends'):
         robot.start('Base')

@@ -11,9 +11,9 @@ from textwrap import dedent
 import pytest
 from ros_master import ignores
 
-from capabilities.processes import (
-    MARK, ServerRun, Watcher, end_leftovers, end_marked, exit_code, exit_text, find_marked,
-    kill_marked)
+from capabilities.launch import exit_code, exit_text
+from capabilities.leftovers import Watcher, end_leftovers
+from capabilities.processes import MARK, ServerRun, end_marked, find_marked, kill_marked
 
 MASTER = 'http://localhost:1'
 PATIENCE = 60       # seconds until a test that waits for something fails
@@ -205,7 +205,7 @@ def test_a_server_that_still_lives_ends_its_own(run, start, monkeypatch):
             child.terminate()
             child.wait()
 
-    monkeypatch.setattr('capabilities.processes.time.sleep', lambda seconds: end_it())
+    monkeypatch.setattr('capabilities.leftovers.time.sleep', lambda seconds: end_it())
     try:
         assert end_leftovers(run, pytest.fail, wait=PATIENCE) == 0
     finally:
@@ -216,7 +216,8 @@ def test_a_server_that_still_lives_ends_its_own(run, start, monkeypatch):
 
 SERVER = '''
 import os, subprocess, sys, time
-from capabilities.processes import MARK, ServerRun, Watcher
+from capabilities.leftovers import Watcher
+from capabilities.processes import MARK, ServerRun
 run = ServerRun(*sys.argv[1:3])
 watcher = Watcher(run)
 for launch in '1', '2':

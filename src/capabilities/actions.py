@@ -31,9 +31,10 @@ class Do(Enum):
     LAUNCH = 'launch'
     #: end its process; `Graph.ended` is told when it is gone
     STOP = 'stop'
-    TELL_LAUNCHED = 'tell launched'
-    TELL_STOPPED = 'tell stopped'
-    TELL_TERMINATED = 'tell terminated'
+    #: tell the audience the event of this name
+    TELL_LAUNCHED = 'launched'
+    TELL_STOPPED = 'stopped'
+    TELL_TERMINATED = 'terminated'
     #: answer the requests that wait for its end
     GONE = 'gone'
 

@@ -8,10 +8,9 @@ import sys
 import threading
 from typing import IO, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple
 
-from capabilities.processes import (
-    MARK, Marked, ServerRun, exit_code, exit_text, kill_marked, send)
+from capabilities.processes import MARK, Marked, ServerRun, kill_marked, send
 
-__all__ = ['Launch', 'Report', 'STOP_SECONDS']
+__all__ = ['Launch', 'Report', 'STOP_SECONDS', 'exit_code', 'exit_text']
 
 STOP_SECONDS = 15.0 + 2.0 + 5.0     # what roslaunch gives its nodes, and 5 s for itself
 _KILL_SECONDS = 0.3                 # how long the end of a launch waits while leftovers are killed
@@ -71,7 +70,7 @@ class Launch:
 
     def __init__(self, file: Optional[str], arguments: List[str], *, screen: bool, quiet: bool,
                  environment: Dict[str, str], run: Optional[ServerRun], name: str) -> None:
-        self.file = file
+        self.real_path = None if file is None else os.path.realpath(file)   # None: the placeholder
         self._run = run
         self._name = name
         self._lock = threading.Lock()       # held to send signals and to reap, for no wait
@@ -165,7 +164,7 @@ class Launch:
         if self._process.stdout is not None:
             output = threading.Thread(target=_pass_on, args=(self._process.stdout,), daemon=True)
             output.start()
-        if self.file is None:
+        if self.real_path is None:
             _call(reported, Report('started'))
         for report in self._read_reports():
             _call(reported, report)
@@ -233,3 +232,29 @@ def _pass_on(output: IO[bytes]) -> None:
                 sys.stdout.flush()
             except (OSError, ValueError):   # stdout is closed; read on, or the process would block
                 pass
+
+
+def exit_code(returncode: int) -> int:
+    """
+    The exit code of a process as a shell tells it.
+
+    :param int returncode: as `subprocess` gives it, negative for a signal
+    :returns: int, 128 + n for signal n
+
+    >>> exit_code(5), exit_code(-9)
+    (5, 137)
+    """
+    return returncode if returncode >= 0 else 128 - returncode
+
+
+def exit_text(returncode: int) -> str:
+    """
+    How a process ended, in words.
+
+    :param int returncode: as `subprocess` gives it, negative for a signal
+    :returns: str
+
+    >>> exit_text(5), exit_text(-9)
+    ('exit 5', 'signal 9')
+    """
+    return 'exit %d' % returncode if returncode >= 0 else 'signal %d' % -returncode

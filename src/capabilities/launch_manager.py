@@ -9,37 +9,23 @@ import itertools
 import logging
 import os
 import shutil
-import sys
 import threading
 import time
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Tuple
+from typing import TYPE_CHECKING, Callable, Dict, List, Optional
 
 from capabilities.launch import Launch, Report
-from capabilities.processes import Marked, ServerRun, Watcher, end_marked
+from capabilities.leftovers import Watcher
+from capabilities.nodelet_manager import (
+    ARGUMENT, LAUNCH_FILE, is_installed, manager_name, server_name)
+from capabilities.processes import Marked, ServerRun, end_marked
 
 if TYPE_CHECKING:
-    from typing import Protocol
-
+    from capabilities.listeners import LaunchListener
     from capabilities.specs.provider import CapabilityProvider
-
-    class LaunchListener(Protocol):
-        """The listener of a launch manager; its methods are called in the threads of launches."""
-
-        def launch_reported(self, pid: int, report: Report) -> None:
-            """A node died or was restarted, or the launch file has started its nodes."""
-
-        def launch_ended(self, pid: int, exit_code: int, text: str) -> None:
-            """All processes of a launch are gone: the last call for that id."""
-
-        def nodelet_manager_ended(self, pid: int, exit_code: int, text: str) -> None:
-            """The same for the nodelet manager."""
 
 __all__ = ['LaunchManager', 'which']
 
 _special_nodelet_manager_capability = '!!nodelet_manager'   # its name in events
-_MANAGER_ARGUMENT = 'capability_server_nodelet_manager_name'
-_MANAGER_LAUNCH_FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)),
-                                    'nodelet_manager.launch')
 _INTERRUPT_SECONDS = 5.0    # at the end of the server: from SIGINT to SIGTERM
 _TERMINATE_SECONDS = 2.0    # from SIGTERM to SIGKILL
 _LOG = logging.getLogger('rosout')      # rospy's own once a node is initialised
@@ -93,11 +79,10 @@ class LaunchManager:
         self.__ids = itertools.count(1)
         self.__stopping = False
         self.__interrupted: Optional[float] = None      # when the end began, by the monotonic clock
-        self.__namespace, node = _node_name()
-        self.__manager_name = _joined(self.__namespace,
-                                      nodelet_manager_name or node + '_nodelet_manager')
+        self.__namespace, _ = server_name()
+        self.__manager_name = manager_name(nodelet_manager_name)
         self.__manager_pid: Optional[int] = None
-        self.__has_manager = nodelet_manager and _nodelet_is_installed()
+        self.__has_manager = nodelet_manager and is_installed()
         self.__watcher = Watcher(run) if run is not None else None
         self.start_nodelet_manager()
 
@@ -164,7 +149,7 @@ class LaunchManager:
         :raises RuntimeError: if it cannot be started, or if the end has begun
         """
         if self.__has_manager and self.__manager_pid is None:
-            self.__start(_MANAGER_LAUNCH_FILE, True, None)
+            self.__start(LAUNCH_FILE, True, None)
         return self.__manager_pid
 
     def begin_stop(self, pid: int) -> None:
@@ -229,7 +214,8 @@ class LaunchManager:
         self.begin_end()
         assert self.__interrupted is not None
         deadline = self.__interrupted + _INTERRUPT_SECONDS
-        launches = self.__all()
+        with self.__lock:
+            launches = list(self.__launches.values())
         for launch in launches:
             launch.join(max(0.0, deadline - time.monotonic()))
 
@@ -263,20 +249,19 @@ class LaunchManager:
                 raise RuntimeError("No running launch file with PID of '%s'" % pid)
             return self.__launches[pid]
 
-    def __all(self) -> List[Launch]:
-        with self.__lock:
-            return list(self.__launches.values())
-
     def __start(self, file: Optional[str], manager: bool,
                 on_pid: Optional[Callable[[int], None]]) -> int:
         """Start a launch file or the placeholder, and have it watched."""
         namespace, _, base_name = self.__manager_name.rpartition('/')
         environment = dict(os.environ, ROS_NAMESPACE=namespace if manager else self.__namespace)
-        argument = '%s:=%s' % (_MANAGER_ARGUMENT, base_name if manager else self.__manager_name)
+        argument = '%s:=%s' % (ARGUMENT, base_name if manager else self.__manager_name)
+        real_path = None if file is None else os.path.realpath(file)
         with self.__lock:
             if self.__stopping:
                 raise RuntimeError('the capability server ends')
-            self.__check_not_running(file)
+            if real_path is not None and any(real_path == launch.real_path
+                                             for launch in self.__launches.values()):
+                raise RuntimeError("Launch file at '%s' is already running." % file)
             try:
                 launch = Launch(file, [argument], screen=self.__screen, quiet=self.__quiet,
                                 environment=environment, run=self.__run, name=str(next(self.__ids)))
@@ -292,12 +277,6 @@ class LaunchManager:
         launch.watch(lambda report: self.__reported(pid, report),
                      lambda exit_code, text: self.__ended(pid, exit_code, text))
         return pid
-
-    def __check_not_running(self, file: Optional[str]) -> None:
-        if file is not None and os.path.realpath(file) in [
-                os.path.realpath(launch.file) for launch in self.__launches.values()
-                if launch.file is not None]:
-            raise RuntimeError("Launch file at '%s' is already running." % file)
 
     def __reported(self, pid: int, report: Report) -> None:
         if self.__listener is not None:
@@ -322,30 +301,3 @@ def _stop_all(launches: List[Launch]) -> None:
         launch.begin_stop()
     for launch in launches:
         launch.join()
-
-
-def _node_name() -> Tuple[str, str]:
-    """Namespace and base name of this node; without one, those that the server would have."""
-    rospy: Any = sys.modules.get('rospy')
-    if rospy is not None and rospy.core.is_initialized():
-        namespace, _, base_name = rospy.get_name().rpartition('/')
-        return namespace or '/', base_name
-    return os.environ.get('ROS_NAMESPACE') or '/', 'capability_server'
-
-
-def _joined(namespace: str, name: str) -> str:
-    """A name below a namespace, with a leading slash."""
-    return name if name.startswith('/') else '/' + '/'.join(
-        [part for part in namespace.split('/') if part] + [name])
-
-
-def _nodelet_is_installed() -> bool:
-    """Is package nodelet installed? Logs a warning if it is not."""
-    try:
-        import roslib.packages
-        if roslib.packages.find_node('nodelet', 'nodelet'):
-            return True
-    except Exception:       # without roslib or the package, and whatever a broken workspace raises
-        pass
-    _LOG.warning('package nodelet is not installed, so no nodelet manager is started')
-    return False

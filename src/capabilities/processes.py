@@ -3,19 +3,17 @@ Processes that belong to a run of the capability server: marked, found and ended
 
 All processes that the server starts carry a mark in their environment, which children inherit. So
 leftovers can be found in ``/proc``, however often they forked and whatever their parent is now.
-This module imports only the standard library. Run by its path, with ``python3 -I -S``, it is the
-watcher: a small process that outlives the server and ends its leftovers.
+This module imports only the standard library: it is also run by its path, with ``python3 -I -S``,
+as the process of a `capabilities.leftovers.Watcher`.
 """
 import json
 import os
 import signal
-import subprocess
 import sys
 import time
 from typing import Callable, Dict, Iterable, List, NamedTuple, Optional, Set
 
-__all__ = ['MARK', 'Marked', 'ServerRun', 'Watcher', 'end_leftovers', 'end_marked', 'exit_code',
-           'exit_text', 'find_marked', 'kill_marked']
+__all__ = ['MARK', 'Marked', 'ServerRun', 'end_marked', 'find_marked', 'kill_marked', 'send']
 
 MARK = 'CAPABILITY_SERVER_MARK'         # the environment variable: server, run and launch
 _ENVIRONMENT_LIMIT = 8 << 20            # bytes that are read; Linux allows about 6 MiB
@@ -266,107 +264,6 @@ def _repeat(wanted: Wanted, seconds: float, action: Callable[[Dict[int, Marked]]
         elif empty_since is None:
             empty_since = now
         time.sleep(_POLL if found or settle else _POLL / 5)
-
-
-def end_leftovers(run: ServerRun, log: Callable[[str], None], wait: float = 8.0) -> int:
-    """
-    End the leftovers of earlier runs of a server.
-
-    If an earlier server of the same name still lives, this one has thrown it out, and it is ending
-    its own processes; it gets ``wait`` seconds for that. Blocks for at most that time and 3 s.
-
-    :param ServerRun run: the run that begins
-    :param log: called with a line for each process that is ended
-    :param float wait: seconds to wait for servers that still live
-    :returns: int, how many processes were ended
-
-    >>> end_leftovers(ServerRun('/nobody@http://localhost:1', '17-4711-c0ffee'), print)
-    0
-    """
-    def is_leftover(process: Marked) -> bool:
-        return process.server == run.server and process.run != run.run
-
-    end = time.monotonic() + wait
-    found = find_marked(is_leftover)
-    while time.monotonic() < end and any(
-            ServerRun(process.server, process.run).is_alive() for process in found.values()):
-        time.sleep(2 * _POLL)
-        found = find_marked(is_leftover)
-    for process in found.values():
-        log('ending process %d, left by an earlier run of %s: %s' % (
-            process.pid, run.server.partition('@')[0], process.command))
-    if found:
-        end_marked(is_leftover, interrupt=2.0, terminate=1.0)
-    return len(found)
-
-
-def exit_code(returncode: int) -> int:
-    """
-    The exit code of a process as a shell tells it.
-
-    :param int returncode: as `subprocess` gives it, negative for a signal
-    :returns: int, 128 + n for signal n
-
-    >>> exit_code(5), exit_code(-9)
-    (5, 137)
-    """
-    return returncode if returncode >= 0 else 128 - returncode
-
-
-def exit_text(returncode: int) -> str:
-    """
-    How a process ended, in words.
-
-    :param int returncode: as `subprocess` gives it, negative for a signal
-    :returns: str
-
-    >>> exit_text(5), exit_text(-9)
-    ('exit 5', 'signal 9')
-    """
-    return 'exit %d' % returncode if returncode >= 0 else 'signal %d' % -returncode
-
-
-class Watcher:
-    """
-    A process that ends all marked processes of a run as soon as the server is gone.
-
-    It reads from a pipe that only the server holds open, so it notices any end. It is in a
-    session of its own and ignores SIGINT and SIGTERM, so that a Ctrl-C does not take it along.
-
-    :param ServerRun run: the run whose processes it ends
-    :raises OSError: if it cannot be started
-    """
-
-    def __init__(self, run: ServerRun) -> None:
-        environment = {name: value for name, value in os.environ.items() if name != MARK}
-        self._process = subprocess.Popen(
-            [sys.executable, '-I', '-S', os.path.abspath(__file__)], stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
-            env=environment, cwd='/')
-        self._tell(json.dumps(run))
-
-    @property
-    def pid(self) -> int:
-        """The id of its process."""
-        return self._process.pid
-
-    def close(self) -> None:
-        """Let it end: the server has ended everything itself. Waits for it, at most 2 s."""
-        self._tell('done')
-        try:
-            assert self._process.stdin is not None
-            self._process.stdin.close()
-            self._process.wait(2.0)
-        except (OSError, subprocess.TimeoutExpired):
-            pass
-
-    def _tell(self, line: str) -> None:
-        try:
-            assert self._process.stdin is not None
-            self._process.stdin.write(line.encode() + b'\n')
-            self._process.stdin.flush()
-        except (OSError, ValueError):       # it was killed; the next run of the server cleans up
-            pass
 
 
 def _watch() -> None:

@@ -23,15 +23,13 @@ from capabilities.status import status_entries
 from rocon_uri.sources.wording import quoted
 
 if TYPE_CHECKING:
-    from capabilities.audience import Audience
     from capabilities.launch import Report
+    from capabilities.listeners import Audience
 
 __all__ = ['Runtime']
 
 T = TypeVar('T')
 
-_EVENTS = {Do.TELL_LAUNCHED: 'launched', Do.TELL_STOPPED: 'stopped',
-           Do.TELL_TERMINATED: 'terminated'}
 _LOSSES = 3                 # this many losses of the nodelet manager
 _LOSSES_SECONDS = 60.0      # within this time are too many
 
@@ -290,8 +288,7 @@ class Runtime:
             if event is not None:
                 event.set()
         else:
-            self._audience.told(_EVENTS[do], instance.interface, instance.provider,
-                                instance.pid or 0)
+            self._audience.told(do.value, instance.interface, instance.provider, instance.pid or 0)
 
     def _launch(self, instance: CapabilityInstance) -> None:
         if instance.canceled:

@@ -24,10 +24,12 @@ from capabilities.catalogue import Catalogue, catalogue_of, load_specs, read_cat
 from capabilities.instances import (
     USER_SERVICE_REASON, CapabilityInstance, get_reverse_depends)
 from capabilities.launch_manager import LaunchManager
+from capabilities.leftovers import end_leftovers
 from capabilities.parameters import InvalidConfiguration, read_parameters
-from capabilities.processes import ServerRun, end_leftovers
+from capabilities.processes import ServerRun
 from capabilities.publications import Publications
 from capabilities.runtime import Runtime
+from capabilities.service_discovery import server_names
 from capabilities.services import Services
 from capabilities.spec_index import SpecIndex
 
@@ -177,12 +179,11 @@ class CapabilityServer:
 def _warn_of_other_servers(name: str) -> None:
     """Warn of servers of other names at this master: neither knows what the other starts."""
     try:
-        services = rosgraph.Master(name).getSystemState()[2]
+        servers = server_names(name)
     except (OSError, rosgraph.MasterException):
         return
-    for service, _ in services:
-        server, _, own_name = service.rpartition('/')
-        if own_name == 'establish_bond' and server != name:
+    for server in servers:
+        if server != name:
             _logger.warning('there is another capability server, %s; neither knows what the other '
                             'starts', server)
 

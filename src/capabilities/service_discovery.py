@@ -1,9 +1,10 @@
-"""The capability specs that a capability server has, as a `capabilities.spec_index.SpecIndex`."""
+"""What is known of capability servers from outside: which there are, and the specs that one has."""
 from __future__ import annotations
 
 from typing import Callable, Dict, List, Optional, Tuple
 
 import capabilities.needs_ros  # noqa: F401
+import rosgraph
 import rospy
 from capabilities.msg import CapabilitySpec
 from capabilities.spec_index import (
@@ -14,9 +15,23 @@ from capabilities.specs.provider import capability_provider_from_string
 from capabilities.specs.semantic_interface import semantic_capability_interface_from_string
 from capabilities.srv import GetCapabilitySpecs
 
-__all__ = ['spec_index_from_service']
+__all__ = ['server_names', 'spec_index_from_service']
 
 _PATH = 'service call'      # in place of that of a file
+
+
+def server_names(caller: str) -> List[str]:
+    """
+    The capability servers that the master knows.
+
+    :param str caller: the name of the node that asks
+    :returns: list of str, the names of their nodes with the ``/`` in front
+    :raises OSError: if the master does not answer
+    :raises rosgraph.MasterException: if the master answers with an error
+    """
+    end = '/start_capability'
+    services = rosgraph.Master(caller).getSystemState()[2]
+    return [service[:-len(end)] for service, _ in services if service.endswith(end)]
 
 
 def spec_index_from_service(capability_server_node_name: str = 'capability_server',

@@ -92,24 +92,22 @@ class RunningServer:
     def _reach(self) -> None:
         import socket
         import rosgraph
+        from capabilities.service_discovery import server_names
         before = socket.getdefaulttimeout()
         socket.setdefaulttimeout(_TIMEOUT)      # requests to the master have none of their own
         try:
-            master = rosgraph.Master('/rocon_uri')
-            services = master.getSystemState()[2]
+            servers = server_names('/rocon_uri')
         except (OSError, rosgraph.MasterException):
             raise Unreachable('no ROS master answers at %s' % rosgraph.get_master_uri()) from None
         finally:
             socket.setdefaulttimeout(before)
-        marker = '/start_capability'
-        servers = [service[:-len(marker)] for service, _ in services if service.endswith(marker)]
         if self.name not in servers:
             others = ', '.join(map(quoted, servers[:5]))
             raise Unreachable('no capability server %s%s' % (
                 quoted(self.name), '; there is %s (--server)' % others if servers else
                 ' runs: rosrun capabilities capability_server'))
         try:
-            self._rospy.wait_for_service(self.name + marker, timeout=_TIMEOUT)
+            self._rospy.wait_for_service(self.name + '/start_capability', timeout=_TIMEOUT)
         except self._rospy.ROSException:
             raise Unreachable('capability server %s does not answer' % quoted(self.name)) from None
 
