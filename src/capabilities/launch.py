@@ -236,10 +236,7 @@ def _pass_on(output: IO[bytes]) -> None:
 
 def exit_code(returncode: int) -> int:
     """
-    The exit code of a process as a shell tells it.
-
-    :param int returncode: as `subprocess` gives it, negative for a signal
-    :returns: int, 128 + n for signal n
+    The exit code of a process as a shell tells it: 128 + n for signal n, which is -n in Python.
 
     >>> exit_code(5), exit_code(-9)
     (5, 137)
@@ -250,9 +247,6 @@ def exit_code(returncode: int) -> int:
 def exit_text(returncode: int) -> str:
     """
     How a process ended, in words.
-
-    :param int returncode: as `subprocess` gives it, negative for a signal
-    :returns: str
 
     >>> exit_text(5), exit_text(-9)
     ('exit 5', 'signal 9')
