@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ['ENDS', 'Action', 'Do', 'Graph', 'RefusedRequest', 'StartResult']
 
+
 class Graph(Roster):
     """
     What is wanted, and what runs.

@@ -56,13 +56,13 @@ class Launch:
     """
     A process that runs a launch file, or the placeholder, in a session of its own.
 
-    :param str file: the launch file; None runs the placeholder
+    :param file: the launch file; None runs the placeholder
     :param arguments: ``name:=value`` for the launch file
-    :param bool screen: show the output of all nodes
-    :param bool quiet: read the output and write it to stdout; by default the process writes there
-    :param dict environment: of the process, without a mark
-    :param ServerRun run: the mark that its processes carry; None for none
-    :param str name: the id of the launch within that run
+    :param screen: show the output of all nodes
+    :param quiet: read the output and write it to stdout; otherwise the process writes there itself
+    :param environment: of the process, without a mark
+    :param run: the run whose mark its processes carry; None for no mark
+    :param name: the id of the launch within that run
     :raises OSError: if the process cannot be started
 
     It runs when this returns; `watch` has to be called next.
@@ -141,12 +141,7 @@ class Launch:
             kill_marked(self._is_of_it, _KILL_SECONDS)
 
     def join(self, timeout: Optional[float] = None) -> bool:
-        """
-        Wait until ``ended`` was called.
-
-        :param float timeout: seconds, None for as long as it takes
-        :returns: bool, whether it was
-        """
+        """Wait until ``ended`` was called, or for so many seconds; whether it was called."""
         return self._ended.wait(timeout)
 
     def _instruct(self, request: Dict[str, object]) -> None:
@@ -160,7 +155,7 @@ class Launch:
 
     def _watch(self, reported: Callable[[Report], None], ended: Callable[[int, str], None]
                ) -> None:
-        """The thread: pass on reports, wait for the end, kill leftovers, tell that all is gone."""
+        """Pass on reports, wait for the end, kill leftovers, and tell that all is gone."""
         if self._process.stdout is not None:
             output = threading.Thread(target=_pass_on, args=(self._process.stdout,), daemon=True)
             output.start()

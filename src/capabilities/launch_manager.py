@@ -33,10 +33,9 @@ _LOG = logging.getLogger('rosout')      # rospy's own once a node is initialised
 
 def which(program: str) -> Optional[str]:
     """
-    Find an executable.
+    The path of an executable; None if there is none.
 
-    :param str program: its name, looked for on the PATH, or its path
-    :returns: str, its path; None where there is none
+    :param program: its name, looked for on the PATH, or its path
 
     >>> which('no_such_program') is None
     True
@@ -48,16 +47,15 @@ class LaunchManager:
     """
     Starts launch files, knows them by the id of their process, and ends them.
 
-    :param bool quiet: read the output of the launch files and write it to stdout; by default they
-        write to the stdout of this process themselves
-    :param bool screen: show the output of all nodes
-    :param str nodelet_manager_name: the base name of the nodelet manager; by default the name
-        of this node and ``_nodelet_manager``
-    :param listener: is told what happens: methods ``launch_reported(pid, report)``,
-        ``launch_ended(pid, exit_code, text)`` and ``nodelet_manager_ended(pid, exit_code, text)``
-    :param ServerRun run: marks all processes, and has a watcher end them if this process dies;
-        None does neither
-    :param bool nodelet_manager: False starts no nodelet manager
+    :param quiet: read the output of the launch files and write it to stdout; by default they write
+        to the stdout of this process themselves
+    :param screen: show the output of all nodes
+    :param nodelet_manager_name: the base name of the nodelet manager; by default the name of this
+        node and ``_nodelet_manager``
+    :param listener: is told what happens, in the threads of the launches
+    :param run: marks all processes, and has a watcher end them if this process dies; None does
+        neither
+    :param nodelet_manager: False starts no nodelet manager
     :raises OSError: if a process cannot be started
 
     >>> manager = LaunchManager(nodelet_manager=False)
@@ -111,10 +109,9 @@ class LaunchManager:
         """
         Start the launch file of a provider, or the placeholder.
 
-        :param provider: the spec of the provider
-        :param str provider_path: the path of the file of the spec
+        :param provider_path: the path of the file of the spec
         :param on_pid: called with the id before the listener is told anything about it
-        :returns: int, the id of the process
+        :returns: the id of the process
         :raises RuntimeError: if the launch file runs already, if it cannot be started, or if the
             end has begun
         """
@@ -130,14 +127,10 @@ class LaunchManager:
                         manager: bool = False,
                         on_pid: Optional[Callable[[int], None]] = None) -> int:
         """
-        Start a launch file.
+        Start a launch file, as `run_capability_provider` does.
 
-        :param str launch_file: its path; None runs the placeholder
-        :param provider: the spec of the provider
-        :param bool manager: is it that of the nodelet manager?
-        :param on_pid: called with the id before the listener is told anything about it
-        :returns: int, the id of the process
-        :raises RuntimeError: if it runs already, if it cannot be started, or if the end has begun
+        :param launch_file: its path; None runs the placeholder
+        :param manager: is it that of the nodelet manager?
         """
         return self.__start(launch_file, manager, on_pid)
 
@@ -145,7 +138,7 @@ class LaunchManager:
         """
         Start the nodelet manager, unless it runs or is not wanted.
 
-        :returns: int, the id of its process; None where it is not wanted
+        :returns: the id of its process; None if it is not wanted
         :raises RuntimeError: if it cannot be started, or if the end has begun
         """
         if self.__has_manager and self.__manager_pid is None:
@@ -154,22 +147,16 @@ class LaunchManager:
 
     def begin_stop(self, pid: int) -> None:
         """
-        Ask a launch to stop; the listener is told when it has.
+        Ask a launch to stop; the listener is told when it has stopped.
 
         Its nodes get the time that roslaunch gives them. Leftovers are killed 5 s after that.
 
-        :param int pid: the id of its process
         :raises RuntimeError: if there is no such launch
         """
         self.__launch(pid).begin_stop()
 
     def stop_capability_provider(self, pid: int) -> None:
-        """
-        Stop a launch, and wait until it has ended.
-
-        :param int pid: the id of its process
-        :raises RuntimeError: if there is no such launch
-        """
+        """Do what `begin_stop` does, and wait until the launch has ended."""
         self.__stop_by_pid(pid)
 
     def __stop_by_pid(self, pid: int) -> None:
@@ -229,11 +216,7 @@ class LaunchManager:
             self.__watcher.close()
 
     def handle_capability_events(self, msg: object) -> None:
-        """
-        Do nothing: the end of a launch is known from its process, not from messages.
-
-        :param msg: a ``capabilities/CapabilityEvent``
-        """
+        """Do nothing: the end of a launch is known from its process, not from messages."""
 
     def __monitor_process(self, pid: int) -> None:
         """Wait until a launch has ended; its own thread tells of it."""

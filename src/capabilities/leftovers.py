@@ -1,6 +1,6 @@
 """
-What a capability server leaves behind when it is killed, and who ends that: its watcher at once,
-or the next run of the server before it starts anything.
+What a capability server leaves behind when it is killed. Its watcher ends that at once; if the
+watcher was killed as well, the next run of the server does, before it starts anything.
 """
 import json
 import os
@@ -21,10 +21,10 @@ class Watcher:
     """
     A process that ends all marked processes of a run as soon as the server is gone.
 
-    It reads from a pipe that only the server holds open, so it notices any end. It is in a
-    session of its own and ignores SIGINT and SIGTERM, so that a Ctrl-C does not take it along.
+    It reads from a pipe that only the server holds open, so it notices any end. It is in a session
+    of its own and ignores SIGINT and SIGTERM, so that a Ctrl-C does not end it.
 
-    :param ServerRun run: the run whose processes it ends
+    :param run: the run whose processes it ends
     :raises OSError: if it cannot be started
     """
 
@@ -42,7 +42,7 @@ class Watcher:
         return self._process.pid
 
     def close(self) -> None:
-        """Let it end: the server has ended everything itself. Waits for it, at most 2 s."""
+        """Let it end, since the server has ended everything itself; waits at most 2 s."""
         self._tell('done')
         try:
             assert self._process.stdin is not None
@@ -64,13 +64,13 @@ def end_leftovers(run: ServerRun, log: Callable[[str], None], wait: float = 8.0)
     """
     End the leftovers of earlier runs of a server.
 
-    If an earlier server of the same name still lives, this one has thrown it out, and it is ending
-    its own processes; it gets ``wait`` seconds for that. Blocks for at most that time and 3 s.
+    An earlier server of the same name that still lives was shut down by the master when this one
+    registered, and is ending its own processes: it gets ``wait`` seconds for that. Blocks for at
+    most that time and 3 s.
 
-    :param ServerRun run: the run that begins
+    :param run: the run that begins
     :param log: called with a line for each process that is ended
-    :param float wait: seconds to wait for servers that still live
-    :returns: int, how many processes were ended
+    :returns: how many processes were ended
 
     >>> end_leftovers(ServerRun('/nobody@http://localhost:1', '17-4711-c0ffee'), print)
     0

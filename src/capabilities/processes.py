@@ -36,11 +36,9 @@ class ServerRun(NamedTuple):
     @classmethod
     def new(cls, node_name: str, master_uri: str) -> 'ServerRun':
         """
-        The run of the server in this process.
+        The run of the server in this process, with an id that no other run has.
 
-        :param str node_name: the resolved name of its node
-        :param str master_uri: the URI of its master
-        :returns: `ServerRun`, with an id that no other run has
+        :param node_name: the resolved name of the server's node
         """
         process = _Process.read(os.getpid())
         started = process.started if process else 0
@@ -48,20 +46,11 @@ class ServerRun(NamedTuple):
                    '%d-%d-%s' % (os.getpid(), started, os.urandom(4).hex()))
 
     def mark(self, launch: str) -> str:
-        """
-        The mark of one launch.
-
-        :param str launch: an id of the launch, without blanks
-        :returns: str, the value of the variable `MARK`
-        """
+        """The value of the variable `MARK` for one launch, whose id has no blanks."""
         return '%s %s %s' % (self.server, self.run, launch)
 
     def is_alive(self) -> bool:
-        """
-        Is the process of this server still there?
-
-        :returns: bool
-        """
+        """Is the process of this server still there?"""
         pid, _, rest = self.run.partition('-')
         process = _Process.read(int(pid)) if pid.isdigit() else None
         return process is not None and rest.partition('-')[0] == str(process.started)
@@ -114,8 +103,8 @@ def find_marked(wanted: Wanted) -> Dict[int, Marked]:
     """
     The processes of this user that carry a mark, without this process.
 
-    :param wanted: called with a `Marked`; returns whether to include it
-    :returns: dict of `Marked` by process id
+    :param wanted: returns whether to include a process
+    :returns: the processes by their ids
 
     >>> find_marked(lambda process: process.server == '/nobody@http://localhost:1')
     {}
@@ -153,12 +142,7 @@ def _mark(environment: bytes) -> List[str]:
 
 
 def send(pid: int, number: int) -> None:
-    """
-    Send a signal to a process, and to its group if it leads one.
-
-    :param int pid: the process; nothing happens where it has ended
-    :param int number: the signal
-    """
+    """Send a signal to a process, and to its group if it leads one; none if it has ended."""
     try:
         if os.getpgid(pid) == pid != os.getpgrp():
             os.killpg(pid, number)
@@ -169,7 +153,7 @@ def send(pid: int, number: int) -> None:
 
 
 def _send_all(found: Dict[int, Marked], pids: Iterable[int], number: int) -> None:
-    """Send a signal once to each of them: to the group, where its leader is among them."""
+    """Send a signal once to each process: to its group if the leader is one of them."""
     chosen = set(pids)
     for pid in chosen:
         group = found[pid].group
@@ -179,10 +163,10 @@ def _send_all(found: Dict[int, Marked], pids: Iterable[int], number: int) -> Non
 
 def _kill_all(found: Dict[int, Marked]) -> None:
     """
-    Send SIGKILL to the groups of these processes.
+    Send SIGKILL to the groups of processes.
 
-    Their groups contain nothing else, since each launch begins a session. The signal to a group
-    also reaches children that were forked after the look at /proc.
+    The groups contain nothing else, since each launch begins a session. The signal to a group also
+    reaches children that were forked after the look at /proc.
     """
     for process in found.values():
         try:
@@ -196,11 +180,10 @@ def _kill_all(found: Dict[int, Marked]) -> None:
 
 def kill_marked(wanted: Wanted, seconds: float = _UNKILLABLE) -> bool:
     """
-    Send SIGKILL to marked processes until none is found any more.
+    Send SIGKILL to marked processes until none is found any more, or the time is over.
 
     :param wanted: as `find_marked` takes it
-    :param float seconds: how long to try
-    :returns: bool, whether nothing is left
+    :returns: whether nothing is left
 
     >>> kill_marked(lambda process: process.server == '/nobody@http://localhost:1')
     True
@@ -216,10 +199,10 @@ def end_marked(wanted: Wanted, interrupt: Optional[float] = 5.0, terminate: floa
     SIGINT goes to those whose parent is not one of them: a roslaunch passes it on to its nodes.
 
     :param wanted: as `find_marked` takes it
-    :param float interrupt: seconds from SIGINT to SIGTERM; None sends no SIGINT
-    :param float terminate: seconds from SIGTERM to SIGKILL
-    :param float settle: seconds for which nothing must be found
-    :returns: bool, whether nothing is left
+    :param interrupt: seconds from SIGINT to SIGTERM; None sends no SIGINT
+    :param terminate: seconds from SIGTERM to SIGKILL
+    :param settle: seconds for which nothing must be found
+    :returns: whether nothing is left
 
     >>> end_marked(lambda process: process.server == '/nobody@http://localhost:1')
     True
@@ -246,8 +229,8 @@ def _repeat(wanted: Wanted, seconds: float, action: Callable[[Dict[int, Marked]]
     """
     Do something with the processes found, until none is left or the time is over.
 
-    At least two looks in a row, over ``settle`` seconds, have to find none: a process that is
-    just calling exec shows no environment.
+    At least two looks in a row, over ``settle`` seconds, have to find none, because a process that
+    is calling exec has no environment for a moment.
     """
     end = time.monotonic() + seconds
     empty_since: Optional[float] = None

@@ -1,4 +1,4 @@
-"""Requests of the verbs to a running capability server."""
+"""How the verbs ask a running capability server."""
 from __future__ import annotations
 
 import re
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 __all__ = ['Refused', 'RunningServer', 'Unreachable', 'add_running', 'add_server',
            'capability_names', 'what_runs']
 
-_RUNNING = ('launching', 'running', 'degraded')    # the states in which it can be used
+_RUNNING = ('launching', 'running', 'degraded')    # the states in which a capability can be used
 _TIMEOUT = 1.5      # seconds to wait for the master, and for the server
 
 
@@ -33,19 +33,17 @@ def add_server(parser: argparse.ArgumentParser) -> None:
 
 
 def add_running(parser: argparse.ArgumentParser, help_text: str) -> None:
-    """Let a verb that need not ask a server do so: ``--running``."""
+    """Let a verb ask a server if it is told to: ``--running``."""
     parser.add_argument('--running', action='store_true', help=help_text)
     add_server(parser)
 
 
 def what_runs(args: argparse.Namespace, report: PackageReport) -> Optional[Dict[str, str]]:
     """
-    What runs on the server, where a verb was asked to say so.
+    What runs on the server, if ``--running`` was given.
 
-    :param args: those of the verb, which took `add_running`
-    :param report: is told if the server cannot be asked
-    :returns: dict of str, the provider by the name of the capability; None if nobody asked for it,
-        or if there is no server
+    :param report: is told if the server does not answer
+    :returns: the provider of each capability that runs; None without ``--running`` or an answer
     """
     if not args.running:
         return None
@@ -70,8 +68,8 @@ class RunningServer:
     """
     The services of one capability server.
 
-    :param str name: the node name, which is resolved in the namespace of this process
-    :raises Unreachable: if it cannot be asked
+    :param name: of its node; resolved in the namespace of this process
+    :raises Unreachable: if it does not answer
     """
 
     def __init__(self, name: str) -> None:
@@ -113,10 +111,9 @@ class RunningServer:
 
     def running(self) -> Dict[str, str]:
         """
-        What runs.
+        The provider of each capability that runs.
 
-        :returns: dict of str, the provider by the name of the capability
-        :raises Unreachable: if it cannot be asked any more
+        :raises Unreachable: if the server does not answer any more
         """
         return {status.capability: status.provider
                 for status in self.call('get_status').status.capabilities
@@ -124,13 +121,12 @@ class RunningServer:
 
     def call(self, service: str, *request: object) -> Any:
         """
-        Ask one of its services.
+        The response of one of its services.
 
-        :param str service: its name below that of the node
+        :param service: its name below that of the node
         :param request: the fields of the request, in order
-        :returns: the response
         :raises Refused: if the server answers with an error
-        :raises Unreachable: if it cannot be asked any more
+        :raises Unreachable: if the server does not answer any more
         """
         type_name = ''.join(word.capitalize() for word in service.split('_'))
         proxy = self._rospy.ServiceProxy('%s/%s' % (self.name, service),

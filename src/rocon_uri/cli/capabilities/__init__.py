@@ -1,5 +1,5 @@
 """
-Ask a capability server: what there is, what runs, start and stop.
+Ask a capability server what it knows and what runs; start and stop capabilities.
 
 Examples:
   rocon_uri capabilities list
@@ -9,11 +9,11 @@ Examples:
   rocon_uri capabilities stop std_capabilities/Navigation2D
   rocon_uri capabilities watch
 
-Each of the six has a --help of its own, which says more.
+Each verb has its own --help, which says more.
 
 Exit status: 0; 1 if the server refuses, or if a capability has failed or is
-degraded; 2 if there is no server to ask
-JSON: one object each, with "errors": [ERROR, ...]
+degraded; 2 if no server answers
+JSON: each verb prints an object with "errors": [ERROR, ...]
 """
 from __future__ import annotations
 

@@ -1,14 +1,14 @@
 """
-List the capabilities that a server knows, and what provides them.
+List the capabilities that a server knows, and their providers.
 
 Example:
   rocon_uri capabilities list
 
-A provider with a star is the default one.
+The default provider of a capability has a star.
 
-Exit status: 0; 2 if there is no server to ask
+Exit status: 0; 2 if no server answers
 JSON: {"capabilities": [{"capability", "redefines", "default_provider",
-"providers": [NAME, ...]}, ...], "errors": []}, with null for what there is not
+"providers": [NAME, ...]}, ...], "errors": []}; null where there is none
 """
 from __future__ import annotations
 

@@ -1,14 +1,14 @@
 """
-Say what a start of a capability would do, and start nothing.
+Show what a start of a capability would do, and start nothing.
 
 Examples:
   rocon_uri capabilities plan std_capabilities/Navigation2D
   rocon_uri capabilities plan std_capabilities/Navigation2D ours/slow_navigation
 
-Shows each capability in the order of starting, its provider, and which of them
-run already.
+Shows the capabilities in the order in which they would start, their providers,
+and which of them run already.
 
-Exit status: 0; 1 if it could not be started; 2 if there is no server to ask
+Exit status: 0; 1 if the start would be refused; 2 if no server answers
 JSON: {"steps": [{"capability", "provider", "running": BOOL}, ...],
 "faults": [TEXT, ...], "errors": [ERROR, ...]}
 """

@@ -1,14 +1,15 @@
 """
-Start a capability, and what it depends on.
+Start a capability and everything that it depends on.
 
 Examples:
   rocon_uri capabilities start std_capabilities/Navigation2D
   rocon_uri capabilities start std_capabilities/Navigation2D ours/slow_navigation
 
-It runs until somebody stops it. Does not wait until its nodes are up: see status.
+The capability runs until somebody stops it. The command does not wait until its
+nodes are up: see status.
 
-Exit status: 0 if it starts, or runs already; 1 if it cannot be started, or is
-just being stopped; 2 if there is no server to ask
+Exit status: 0 if it starts or runs already; 1 if the start is refused, or if the
+capability is being stopped; 2 if no server answers
 JSON: {"result": "started", "starting already", "runs already" or "is being
 stopped", "errors": [ERROR, ...]}
 """

@@ -1,18 +1,18 @@
 """
-Say what runs, who wants it, and what has failed.
+Show what runs, who wants it, and what has failed.
 
 Example:
   rocon_uri capabilities status
 
-For each capability its state, since when it is in it, and the pid of its
-roslaunch; below, its provider, who wants it (start, clients, dependents), how it
-ended, and what is wrong.
+The first line of each capability has its state, the time of its last change, and
+the pid of its roslaunch. The second line has its provider, who wants it (start,
+uses, dependents), its exit code, and what is wrong.
 
-Exit status: 0; 1 if one has failed or is degraded; 2 if there is no server to ask
+Exit status: 0; 1 if one has failed or is degraded; 2 if no server answers
 JSON: {"server", "ready": BOOL, "capabilities": [{"capability", "provider",
 "state", "started": BOOL, "uses": NUMBER, "dependents": [NAME, ...], "pid",
-"since": SECONDS, "exit_code", "text"}, ...], "errors": []}, with null for what
-there is not
+"since": SECONDS, "exit_code", "text"}, ...], "errors": []}; null where there is
+none
 """
 from __future__ import annotations
 

@@ -1,14 +1,13 @@
 """
-Stop a capability, and before it what depends on it.
+Stop a capability, after everything that depends on it.
 
 Example:
   rocon_uri capabilities stop std_capabilities/Navigation2D
 
-It is stopped whoever uses it. Waits until its nodes have ended, which takes up to
-20 seconds if they do not heed the interrupt.
+The capability is stopped even if clients use it. The command waits until its
+nodes have ended, which takes up to 20 seconds if they ignore SIGINT.
 
-Exit status: 0 if it has ended; 1 if it does not run; 2 if there is no server to
-ask
+Exit status: 0 if it has ended; 1 if it does not run; 2 if no server answers
 JSON: {"result": "stopped", "errors": [ERROR, ...]}
 """
 from __future__ import annotations

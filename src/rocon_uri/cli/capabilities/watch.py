@@ -1,15 +1,15 @@
 """
-Print what starts and ends, as it happens.
+Print what starts and what ends, as it happens.
 
 Example:
   rocon_uri capabilities watch
 
-A line for each event: the time, the event, the capability, its provider, the pid
-of its roslaunch. "terminated" without "stopped" before it was not asked for. Ends
-when it is interrupted, or when the server has gone.
+Each line is an event: the time, what happened, the capability, its provider, the
+pid of its roslaunch. If "terminated" comes without "stopped" before it, nobody
+asked for that end. The command runs until it is interrupted or the server ends.
 
-Exit status: 0 if the server has gone; 2 if there is none to ask
-JSON: one object a line: {"time": SECONDS, "event", "capability", "provider",
+Exit status: 0 when the server has ended; 2 if no server answers
+JSON: an object per line: {"time": SECONDS, "event", "capability", "provider",
 "pid"}
 """
 from __future__ import annotations
