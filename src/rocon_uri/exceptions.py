@@ -70,9 +70,7 @@ class RoconURIValueError(ValueError):
 
     def pretty(self) -> str:
         """
-        The error for a person: the text, then the URI with carets under the fault.
-
-        :returns: str of several lines
+        The error for a person, on several lines: the text, then the URI, the fault underlined.
 
         >>> error = RoconURIValueError("hardware_platform 'turtelbot2' is not registered",
         ...     'rocon:/turtelbot2', 'hardware_platform', 'turtelbot2', (7, 17), ['turtlebot2'])

@@ -45,21 +45,13 @@ def rules_paths(packages: Mapping[str, Package]) -> List[str]:
 
 
 def rules_paths_of_machine() -> Tuple[List[str], List[PackageError]]:
-    """
-    The rules files that the packages on this machine's package path export, then ROCON_URI_RULES.
-
-    :returns: (list of str, the errors of `rocon_uri.sources.packages.find_packages`)
-    """
-    faults: List[PackageError] = []
-    paths = rules_paths(find_packages(_ros_paths(), faults))
-    paths += filter(None, os.environ.get('ROCON_URI_RULES', '').split(os.pathsep))
-    return paths, faults
-
-
-def _ros_paths() -> List[str]:
-    """The folders with packages below them."""
+    """The rules files that packages on the package path export, and ROCON_URI_RULES; errors."""
     try:
         import rospkg       # missing without ROS; it knows what a distribution adds
+        folders = rospkg.RosPack().get_ros_paths()
     except ImportError:
-        return os.environ.get('ROS_PACKAGE_PATH', '').split(os.pathsep)
-    return list(rospkg.RosPack().get_ros_paths())
+        folders = os.environ.get('ROS_PACKAGE_PATH', '').split(os.pathsep)
+    faults: List[PackageError] = []
+    paths = rules_paths(find_packages(folders, faults))
+    paths += filter(None, os.environ.get('ROCON_URI_RULES', '').split(os.pathsep))
+    return paths, faults

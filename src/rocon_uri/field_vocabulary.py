@@ -80,12 +80,9 @@ class FieldVocabulary:
 
     def __iter__(self) -> Iterator[str]:
         """All values and groups, a group before its members."""
-        for value in self._children[None]:
-            yield value
-            for below in self._below(value):
-                yield below
+        return self._below(None)
 
-    def _below(self, value: str) -> Iterator[str]:
+    def _below(self, value: Optional[str]) -> Iterator[str]:
         waiting = list(reversed(self._children.get(value, ())))
         while waiting:
             below = waiting.pop()
@@ -124,10 +121,7 @@ class FieldVocabulary:
 
         :raises KeyError: if it is not registered
         """
-        mask = 0
-        for leaf in self.leaves(value):
-            mask |= 1 << self._bits[leaf]
-        return mask
+        return sum(1 << self._bits[leaf] for leaf in self.leaves(value))
 
     def covering(self, mask: int) -> List[str]:
         """

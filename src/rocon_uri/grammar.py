@@ -9,7 +9,7 @@ import re
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Iterable, Mapping, Optional, Tuple
+    from typing import Iterable, Mapping, Tuple
 
 __all__ = ['ALTERNATIVES_LIMIT', 'EBNF', 'NAME_LIMIT', 'TEXT_LIMIT', 'VOCABULARY_FIELDS',
            'decoded', 'ebnf', 'is_literal', 'is_rocon_app', 'raw_span', 'split', 'stray_character']
@@ -63,7 +63,9 @@ split = re.compile(
     r'(?i:rocon):(?://([^/#]*))?(/?)([^/#]*)(?:/([^/#]*)(?:/([^/#]*)(?:/([^/#]*)(/[^#]*)?)?)?)?'
     r'(?:#(.*))?', re.DOTALL).fullmatch
 
-_stray_character = re.compile(r'[\s\x00-\x1f\x7f-\x9f]').search
+#: A match of the first white space or control character, which no URI may have, else None.
+stray_character = re.compile(r'[\s\x00-\x1f\x7f-\x9f]').search
+
 _escape = re.compile(r'%([0-9A-Fa-f]{2})?')
 
 #: A match if the text is a literal name, else None.
@@ -71,12 +73,6 @@ is_literal = re.compile(r'[A-Za-z]\w{0,254}', re.ASCII).fullmatch
 
 #: A match if the text is the name of an app, ``package/name`` or ``name``, else None.
 is_rocon_app = re.compile(r'(?:[A-Za-z]\w{0,254}/)?[A-Za-z]\w{0,254}', re.ASCII).fullmatch
-
-
-def stray_character(text: str) -> Optional[int]:
-    """The index of the first white space or control character, which no URI may have, or None."""
-    match = _stray_character(text)
-    return match.start() if match else None
 
 
 def decoded(raw: str) -> str:

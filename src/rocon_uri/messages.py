@@ -6,6 +6,7 @@ since the rest of the package works without ROS.
 """
 from __future__ import annotations
 
+from rocon_uri.parts import FIELDS
 from rocon_uri.uri import RoconURI
 
 TYPE_CHECKING = False
@@ -51,9 +52,4 @@ def from_msg(msg: Message) -> RoconURI:
     >>> from_msg(to_msg(parse('rocon:/pr2/bob'))) == parse('rocon:/pr2/bob')
     True
     """
-    return RoconURI.from_fields(concert_name=msg.concert_name,
-                                hardware_platform=msg.hardware_platform,
-                                name=msg.name,
-                                application_framework=msg.application_framework,
-                                operating_system=msg.operating_system,
-                                rocon_app=msg.rocon_app)
+    return RoconURI.from_fields(**{field: getattr(msg, field) for field in FIELDS})

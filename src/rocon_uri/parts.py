@@ -144,12 +144,12 @@ def _are_platforms(raw: str, vocabulary: Vocabulary) -> bool:
 def _check_characters(text: str) -> None:
     if text.isprintable() and ' ' not in text:      # 20 times as fast as the search
         return
-    index = grammar.stray_character(text)
-    if index is not None:
-        character = text[index]
+    match = grammar.stray_character(text)
+    if match:
+        character = match.group()
         kind = 'white space' if character.isspace() else 'control characters'
         raise RoconURIValueError('a rocon URI has no %s (U+%04X)' % (kind, ord(character)), text,
-                                 value=character, span=(index, index + 1))
+                                 value=character, span=match.span())
 
 
 def _check_question_marks(text: str, written: Sequence[str], parts: Parts) -> None:

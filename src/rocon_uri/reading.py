@@ -1,6 +1,4 @@
-"""
-From the text of a rocon URI to what its fields say: split it, then read each field in turn.
-"""
+"""From the text of a rocon URI to its fields: split it, then read each field in turn."""
 from __future__ import annotations
 
 from rocon_uri import grammar, name_pattern

@@ -1,8 +1,4 @@
-"""
-Rocon URIs: what a robot says it is, what an app says it runs on.
-
-`parse` reads one, `RoconURI` is what comes back.
-"""
+"""Rocon URIs, what robots are and apps run on: `parse` reads one and returns a `RoconURI`."""
 from __future__ import annotations
 
 from rocon_uri.exceptions import UnregisteredValue
@@ -63,7 +59,8 @@ class RoconURI(Reading):
         :param hardware_platform: str, as in a URI but without percent-escapes; or an iterable of
             the alternatives; or a `Field`
         :param name: str or `Field`
-        :param application_framework: as hardware_platform; operating_system too
+        :param application_framework: as hardware_platform
+        :param operating_system: as hardware_platform
         :param str rocon_app: '' for none
         :param vocabulary: as `parse` takes
         :returns: RoconURI
@@ -108,11 +105,7 @@ class RoconURI(Reading):
 
     @property
     def sets(self) -> Tuple[Tuple[str, Any], ...]:
-        """
-        The five sets that are compared, as (name, `Field`); the concert's is one of names.
-
-        The sets that are cheap to compare come first, the name last.
-        """
+        """The five sets that are compared, as (name, `Field`), the cheapest first, names last."""
         concert = self.concert_name or '*'
         return (('hardware_platform', self.hardware_platform),
                 ('application_framework', self.application_framework),
@@ -311,9 +304,8 @@ def aligned(a: Resource, b: Resource, complete: bool = False) -> Tuple[RoconURI,
     first, second = parse(a), parse(b)
     if first.vocabulary is second.vocabulary and not complete:
         return first, second
-    vocabularies = [first.vocabulary, second.vocabulary]
-    if complete:
-        vocabularies = [completed(vocabulary) for vocabulary in vocabularies]
+    vocabularies = [completed(uri.vocabulary) if complete else uri.vocabulary
+                    for uri in (first, second)]
     chosen = max(vocabularies, key=precedence)
     if any(vocabulary.is_open for vocabulary in vocabularies):
         chosen = chosen.opened()

@@ -46,8 +46,8 @@ class Vocabulary:
     __slots__ = ('_fields', '_opened', 'is_open', 'serial', 'fields_read', 'uris_read')
 
     def __init__(self, rules: object) -> None:
-        fields = {name: FieldVocabulary(name, {}) for name in VOCABULARY_FIELDS}
-        self._adopt(_extended(fields, rules))
+        self._adopt(_extended({name: FieldVocabulary(name, {}) for name in VOCABULARY_FIELDS},
+                              rules))
 
     def _adopt(self, fields: Dict[str, FieldVocabulary], is_open: bool = False) -> None:
         self._fields = fields
@@ -249,8 +249,7 @@ def complete() -> Vocabulary:
     global _complete
     if _complete is None:
         with _lock:
-            if _complete is None:
-                _complete = with_exported_rules(current())
+            _complete = _complete or with_exported_rules(current())
     return _complete
 
 

@@ -45,11 +45,9 @@ _MEANINGS = {
 
 class Answer:
     """
-    What there is to say about two URIs; None for what could not be found out.
+    What there is to say about two URIs, given as texts; None for what could not be found out.
 
-    :param str a: the text of the first
-    :param str b: the text of the second
-    :param Report report: is told of what is bad
+    :param Report report: gets what is bad
     """
 
     def __init__(self, a: str, b: str, report: Report) -> None:

@@ -1,4 +1,4 @@
-"""How answers look: in colour on a terminal, as JSON for programs."""
+"""Output of answers: in colour on a terminal, as JSON for programs."""
 from __future__ import annotations
 
 import os
@@ -16,7 +16,7 @@ _CODES = {'bold': '1', 'faint': '2', 'red': '31', 'green': '32', 'cyan': '36'}
 
 def painter() -> Callable[[str, str], str]:
     """
-    What puts text in colour where standard output is a terminal, and leaves it alone elsewhere.
+    A function that colours text if standard output is a terminal, and else leaves it alone.
 
     :returns: callable that takes the text and ``'bold'``, ``'faint'``, ``'red'``, ``'green'`` or
         ``'cyan'``, and returns the text to print; https://no-color.org is respected

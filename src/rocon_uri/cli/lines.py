@@ -23,8 +23,8 @@ def read_lines(path: str) -> Iterator[List[str]]:
     A line that is longer than any URI may be cut.
 
     :param str path: the file, ``-`` for standard input
-    :returns: iterator of lists of str, each of the lines that can be had without waiting, but of
-        no more than a few megabytes; bytes that are not UTF-8 become surrogates
+    :returns: iterator of lists of str, each with the lines that can be read without waiting, at
+        most a few megabytes; bytes that are not UTF-8 become surrogates
     :raises OSError: if it cannot be read
     """
     with open(0 if path == '-' else path, 'rb', closefd=path != '-') as file:

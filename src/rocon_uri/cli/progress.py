@@ -1,4 +1,4 @@
-"""A bar on the terminal, for files that take a while; without tqdm there is none."""
+"""A progress bar on the terminal for large files, if tqdm is installed."""
 from __future__ import annotations
 
 import sys
@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 
 __all__ = ['beside_progress', 'progress']
 
-_SMALL = 1 << 20    # bytes; such a file is read before anybody could see a bar
+_SMALL = 1 << 20    # bytes; a smaller file is read before anybody could see a bar
 
 
 class _NoBar:
-    """Takes the place of a bar where none is shown."""
+    """Takes the place of a bar that is not shown."""
 
     def __enter__(self) -> _NoBar:
         return self
@@ -31,9 +31,8 @@ def progress(size: Optional[int]) -> Union[tqdm, _NoBar]:
     """
     Show how far a file has been read, on stderr if that is a terminal.
 
-    :param size: int, bytes in all; None if it is not known
-    :returns: context manager, whose value has a method ``update`` to be called with the number of
-        bytes just read
+    :param size: int, its bytes; None if it is not known
+    :returns: context manager; the method ``update`` of its value takes the number of bytes read
     """
     if sys.stderr.isatty() and (size is None or size > _SMALL):
         try:
@@ -41,17 +40,13 @@ def progress(size: Optional[int]) -> Union[tqdm, _NoBar]:
         except ImportError:
             pass
         else:
-            # Without a number of rows, newer versions show nothing on a terminal that does not
-            # know its height, as that of a container may not.
+            # Without nrows, newer versions show nothing on a terminal that does not know its
+            # height, as in a container.
             return tqdm(total=size, unit='B', unit_scale=True, leave=False, nrows=20)
     return _NoBar()
 
 
 def beside_progress() -> ContextManager[object]:
-    """
-    Take the bar away while something else is printed.
-
-    :returns: context manager
-    """
+    """Take the bar away while something else is printed; a context manager."""
     loaded = sys.modules.get('tqdm')
     return loaded.tqdm.external_write_mode(file=sys.stderr) if loaded else _NoBar()
