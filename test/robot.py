@@ -178,8 +178,8 @@ class Server:
         self.arguments = arguments
         self.program = program
 
-    def start(self, preexec_fn=None):
-        """Start the process, and wait for nothing."""
+    def start(self, sigint=signal.SIG_DFL):
+        """Start the process, with a disposition of SIGINT, and wait for nothing."""
         with open(self.log, 'ab') as log:
             self.process = subprocess.Popen(
                 [sys.executable, '-c', self.program, str(self.robot.workspace),
@@ -187,7 +187,8 @@ class Server:
                 env=dict(self.robot.server_environment,
                          ROS_NAMESPACE=self.name.rpartition('/')[0] or '/'),
                 stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                cwd=str(self.robot.folder), start_new_session=True, preexec_fn=preexec_fn)
+                cwd=str(self.robot.folder), start_new_session=True,
+                preexec_fn=lambda: signal.signal(signal.SIGINT, sigint))
         return self
 
     def __enter__(self):

@@ -42,7 +42,7 @@ def test_a_node_that_ignores_signals_is_killed(robot):
 def test_an_inherited_ignored_sigint_ends_it_too(robot):
     """A9"""
     server = robot.server(WITHOUT)
-    server.start(preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+    server.start(sigint=signal.SIG_IGN)
     with server:
         server.start_capability('Base')
         assert server.end(signal.SIGINT) == 0
