@@ -1,15 +1,24 @@
 """Regular expressions to test with: random texts over the whole syntax, and their languages."""
 from __future__ import annotations
 
+from typing import Optional
+
 from hypothesis import strategies as st
 
 from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.regular.inclusion import Difference
 from rocon_uri.regular.language import Language
 from rocon_uri.regular.syntax import parse
 
 
 def language(text: str) -> Language:
     return Language(text, parse(text))
+
+
+def difference(one: Language, other: Language) -> Optional[str]:
+    """A name that one language has and the other one does not have, None if there is none."""
+    found = Difference(one, other).find()
+    return None if found is None else found.text() + one.example(found.positions)
 
 
 def admits_names(text: str) -> bool:

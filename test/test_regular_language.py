@@ -19,11 +19,12 @@ from at_once import at_once
 from fuzz.name_pattern import is_easy_for_re
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-from regular_patterns import ALL_ATOMS, SMALL_ATOMS, admits_names, language, patterns
+from regular_patterns import (
+    ALL_ATOMS, SMALL_ATOMS, admits_names, difference, language, patterns)
 
 from rocon_uri.regular import language as regular_language
 from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
-from rocon_uri.regular.inclusion import Difference, difference, includes
+from rocon_uri.regular.inclusion import Difference, includes
 from rocon_uri.regular.intersection import Intersection, common_name
 from rocon_uri.regular.language import Language, union
 from rocon_uri.regular.product import WORK_LIMIT

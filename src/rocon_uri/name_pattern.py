@@ -1,27 +1,26 @@
 r"""
-What may stand in the name field of a rocon URI: a set of ROS names.
+The name field of a rocon URI, which denotes a set of legal ROS names.
 
 ======================  ============================================================
-text                    what it admits
+text                    the names that it matches
 ======================  ============================================================
 ``*``                   any name
-``bob``                 a literal: letters, digits and ``_`` only; that name
-``bob_*``, ``*_left``   a glob: these and at least one ``*``, which stands for any
-                        run of them, none included
+``bob``                 a literal, only letters, digits and ``_``: that name
+``bob_*``, ``*_left``   a glob, the same with at least one ``*``, which stands for any
+                        run of these characters, the empty one too
 anything else           a regular expression over the whole name, in the syntax of
                         `rocon_uri.regular.syntax`
 ======================  ============================================================
 
-So ``dud*`` admits ``dude``, as a glob, and ``(dud*)`` does not, as a regular expression: there the
-``*`` repeats the ``d``. Patterns are the sets of the legal ROS names that they admit, of any
-length; two that are written differently may be the same set.
+So ``dud*`` is a glob and matches ``dude``; ``(dud*)`` is a regular expression and does not: its
+``*`` repeats the ``d``. Two patterns with different texts may denote the same set.
 
-Only a regular expression, or a shortest name in two globs, needs an automaton and the modules for
-it, which are imported then.
+Automata are imported only for a regular expression or for a shortest name in two globs.
 """
 from __future__ import annotations
 
 import re
+from functools import partial
 
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.sources.wording import quoted
@@ -32,23 +31,21 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Callable, Iterable, List, Optional, Tuple
     from rocon_uri.regular.language import Language
-    from rocon_uri.regular.tree import Node
 
 __all__ = ['ANY', 'Glob', 'Literal', 'NamePattern', 'RegularExpression', 'read']
 
-_is_literal = re.compile(r'\w+', re.ASCII).fullmatch
 _is_glob = re.compile(r'[\w*]+', re.ASCII).fullmatch
 _LETTERS = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
 
 
 def read(text: str) -> NamePattern:
     """
-    Read what stands in the name field.
+    Read the text of a name field.
 
-    :param str text: the field, with nothing left of percent-escapes
+    :param str text: the text, with percent-escapes decoded
     :returns: NamePattern
-    :raises RoconURIValueError: if it is none of the above or admits no name; ``span`` is where in
-        ``text`` the fault is
+    :raises RoconURIValueError: if it has none of the forms above or matches no name; ``span`` is
+        where in ``text`` the fault is
 
     >>> read('bob_*').matches('bob_7'), read('bob_[0-9]').matches('bob_x')
     (True, False)
@@ -58,17 +55,14 @@ def read(text: str) -> NamePattern:
     if len(text) > NAME_LIMIT:
         raise _error(text, 'a name or name pattern has at most %d characters, this one has %d'
                      % (NAME_LIMIT, len(text)), NAME_LIMIT, len(text))
-    if _is_literal(text):
-        if not is_legal_base_name(text):
-            raise _error(text, 'name %s is not legal: a ROS name starts with a letter'
-                         % quoted(text), 0, 1)
-        return Literal(text)
-    if _is_glob(text):
-        if text[0] != '*' and not is_legal_base_name(text[0]):
-            raise _error(text, 'name pattern %s admits no name: a ROS name starts with a letter'
-                         % quoted(text), 0, 1)
-        return Glob(text)
-    return RegularExpression(text)
+    if not _is_glob(text):
+        return RegularExpression(text)
+    is_literal = '*' not in text
+    if text[0] != '*' and not is_legal_base_name(text[0]):
+        raise _error(text, '%s: a ROS name starts with a letter' % (
+            'name %s is not legal' if is_literal else 'name pattern %s admits no name')
+            % quoted(text), 0, 1)
+    return Literal(text) if is_literal else Glob(text)
 
 
 def _error(text: str, problem: str, start: int, end: int) -> RoconURIValueError:
@@ -77,19 +71,17 @@ def _error(text: str, problem: str, start: int, end: int) -> RoconURIValueError:
 
 class NamePattern:
     """
-    A set of ROS names; immutable.
+    A set of ROS names, made by `read`; immutable.
 
-    Made by `read`. Two are equal if their texts are; whether they are the same set is another
-    question, ``a.includes(b) and b.includes(a)``. ``text`` is the pattern as written. Every name
-    that it admits starts with ``prefix`` and ends with ``suffix``, each a str that is ``''`` where
-    nothing is known; they may overlap.
+    Two are equal if their texts are; ``a.includes(b) and b.includes(a)`` says whether they denote
+    the same set.
     """
 
     __slots__ = ('prefix', 'suffix', 'text')
 
-    text: str
-    prefix: str
-    suffix: str
+    text: str       # as written
+    prefix: str     # of every name in the set; '' if unknown
+    suffix: str     # the same; it may overlap with the prefix
 
     def __init__(self, text: str, prefix: str, suffix: str) -> None:
         object.__setattr__(self, 'text', text)
@@ -99,50 +91,39 @@ class NamePattern:
     @property
     def is_any(self) -> bool:
         """Is this ``*``?"""
-        return False
+        return self.text == '*'
 
     @property
     def literal(self) -> Optional[str]:
-        """The name, if this is a literal, else ``None``."""
-        return None
+        """The name if this is a literal, else ``None``."""
+        return self.text if isinstance(self, Literal) else None
 
     def matches(self, name: str) -> bool:
         """
-        Does this admit a name?
+        Is a name in the set?
 
         :param str name: any text
-        :returns: bool, ``False`` for what is not a legal ROS name
+        :returns: bool, ``False`` if the text is not a legal ROS name
         """
         raise NotImplementedError
 
-    def matches_each(self, names: Iterable[str]) -> Iterable[bool]:
-        """
-        `matches` for many names, which is faster than one by one.
-
-        :param names: iterable of str
-        :returns: iterable of bool, in the order of the names
-        """
-        return map(self.matches, names)
-
     def matches_in_order(self) -> Callable[[List[str]], Iterable[bool]]:
         """
-        `matches` for a great many names, which come in several lists.
+        `matches` for long lists of names, faster than one by one.
 
-        :returns: callable that takes a list of legal names in alphabetical order, and returns an
-            iterable of bool
+        :returns: function from a list of legal names in alphabetical order to an iterable of bool
 
         >>> list(read('[a-c].*').matches_in_order()(['alice', 'bob', 'marvin']))
         [True, True, False]
         """
-        return self.matches_each
+        return partial(map, self.matches)
 
     def intersects(self, other: NamePattern) -> bool:
         """
-        Is there a name that both admit?
+        Do the two sets overlap?
 
-        :param NamePattern other: another one
         :returns: bool
-        :raises PatternTooComplex: if that takes too much work to decide
+        :raises PatternTooComplex: if deciding takes too much work
 
         >>> read('dud*').intersects(read('[a-z]+'))
         True
@@ -157,18 +138,17 @@ class NamePattern:
             return self.matches(other.literal)
         if self.text == other.text:
             return True
-        # Between a prefix and a suffix, globs leave room for whatever the other one wants.
+        # Between prefix and suffix a glob has a star, into which the rest of the other one fits.
         if isinstance(self, Glob) and isinstance(other, Glob) or self.is_any or other.is_any:
             return True
-        return self._shared_name(other) is not None
+        return self.example(other) is not None
 
     def includes(self, other: NamePattern) -> bool:
         """
-        Does this admit every name that the other one admits?
+        Is the other set a subset of this one?
 
-        :param NamePattern other: another one
         :returns: bool
-        :raises PatternTooComplex: if that takes too much work to decide
+        :raises PatternTooComplex: if deciding takes too much work
 
         >>> read('dud*').includes(read('dud[a-e]+')), read('dud[a-e]+').includes(read('dud*'))
         (True, False)
@@ -177,16 +157,16 @@ class NamePattern:
             return self.matches(other.literal)
         if self.text == other.text:
             return True
-        from rocon_uri.regular.inclusion import includes     # which only patterns need
+        from rocon_uri.regular.inclusion import includes
         return includes(self._language(), other._language())
 
     def example(self, other: Optional[NamePattern] = None) -> Optional[str]:
         """
-        A shortest name that this admits, of lower-case letters where there is such a name.
+        A shortest name in the set, of lower-case letters if there is such a name.
 
-        :param NamePattern other: another pattern that has to admit it as well
-        :returns: str, or ``None`` if no name is in both
-        :raises PatternTooComplex: if that takes too much work to decide
+        :param NamePattern other: another pattern, whose set has to have the name too
+        :returns: str, or ``None`` if no name is in both sets
+        :raises PatternTooComplex: if deciding takes too much work
 
         >>> read('bob_[0-9]+').example(), read('*_left').example(read('arm*'))
         ('bob_0', 'arm_left')
@@ -195,19 +175,13 @@ class NamePattern:
             return self._language().example()
         if self.is_any or other.literal is not None:
             return other.example(self)
-        return self._shared_name(other)
-
-    def _shared_name(self, other: NamePattern) -> Optional[str]:
-        from rocon_uri.regular.intersection import common_name    # which only patterns need
+        from rocon_uri.regular.intersection import common_name
         return common_name(self._language(), other._language())
 
-    def _tree(self, text: str) -> Node:
-        from rocon_uri.regular import tree as regular_tree      # which only patterns need
-        return regular_tree.glob(text)
-
     def _language(self) -> Language:
-        from rocon_uri.regular.language import language     # which only patterns need
-        return language(self.text, self._tree)
+        from rocon_uri.regular.language import language
+        from rocon_uri.regular.tree import glob
+        return language(self.text, glob)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError('a name pattern cannot be changed')
@@ -226,20 +200,12 @@ class NamePattern:
 
 
 class Literal(NamePattern):
-    """
-    One name.
-
-    :param str text: the name, which is legal
-    """
+    """One legal name."""
 
     __slots__ = ()
 
     def __init__(self, text: str) -> None:
         super().__init__(text, text, text)
-
-    @property
-    def literal(self) -> Optional[str]:
-        return self.text
 
     def matches(self, name: str) -> bool:
         return name == self.text
@@ -255,7 +221,7 @@ class Glob(NamePattern):
     """
     Name characters and ``*``, which stands for any run of name characters.
 
-    :param str text: with at least one ``*``, and nothing before it that a name cannot start with
+    :param str text: the glob, with at least one ``*``; its first character is ``*`` or a letter
     """
 
     __slots__ = ('_between',)
@@ -266,10 +232,6 @@ class Glob(NamePattern):
         first, *between, last = text.split('*')
         super().__init__(text, first, last)
         object.__setattr__(self, '_between', between)
-
-    @property
-    def is_any(self) -> bool:
-        return self.text == '*'
 
     def matches(self, name: str) -> bool:
         if not name.startswith(self.prefix) or not name.endswith(self.suffix) \
@@ -287,8 +249,8 @@ class Glob(NamePattern):
         if not self.suffix and not any(self._between) and other.prefix.startswith(self.prefix):
             return True
         if isinstance(other, Glob):
-            # A letter that is nowhere here can only be admitted by a star, so that it stands for
-            # whatever is in the place of the other one's stars.
+            # A letter that is not in this glob can only be matched by a star of it, so it can
+            # stand for any text in the place of the other one's stars.
             for letter in _LETTERS:
                 if letter not in self.text:
                     return self.matches(other.text.replace('*', letter))
@@ -300,7 +262,7 @@ class RegularExpression(NamePattern):
     A regular expression over the whole name.
 
     :param str text: the expression
-    :raises RoconURIValueError: as `read` does
+    :raises RoconURIValueError: as described under `read`
     """
 
     __slots__ = ('_remembered',)
@@ -308,35 +270,27 @@ class RegularExpression(NamePattern):
     _remembered: Callable[[], Optional[Language]]
 
     def __init__(self, text: str) -> None:
-        from rocon_uri.regular.tree import literal_ends     # which only patterns need
-        super().__init__(text, *literal_ends(self._tree(text)))
-        object.__setattr__(self, '_remembered', _nothing)
+        from rocon_uri.regular.syntax import parse
+        from rocon_uri.regular.tree import literal_ends
+        super().__init__(text, *literal_ends(parse(text)))
+        object.__setattr__(self, '_remembered', lambda: None)
 
     def matches(self, name: str) -> bool:
         return (self._remembered() or self._language()).matches(name)
 
-    def matches_each(self, names: Iterable[str]) -> Iterable[bool]:
-        return map(self._language().matches, names)
-
     def matches_in_order(self) -> Callable[[List[str]], Iterable[bool]]:
-        from rocon_uri.regular.sorted_walk import SortedWalk     # which only many names need
+        from rocon_uri.regular.sorted_walk import SortedWalk
         return SortedWalk(self._language()).matches
-
-    def _tree(self, text: str) -> Node:
-        from rocon_uri.regular.syntax import parse      # which only patterns need
-        return parse(text)
 
     def _language(self) -> Language:
         found = self._remembered()
         if found is None:
-            from weakref import ref     # which only patterns need
-            found = super()._language()
+            from weakref import ref
+            from rocon_uri.regular.language import language
+            from rocon_uri.regular.syntax import parse
+            found = language(self.text, parse)
             object.__setattr__(self, '_remembered', ref(found))
         return found
-
-
-def _nothing() -> None:
-    return None
 
 
 ANY: NamePattern = Glob('*')

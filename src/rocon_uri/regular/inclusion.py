@@ -1,11 +1,11 @@
 """
-Whether one regular language includes another: a name that only one of them has.
+Does one regular language include another? A search for a name that only the second one has.
 
-The antichain method, with simulation between the positions of the two NFAs.
+The antichain method, pruned by simulation between the Glushkov positions of the two NFAs.
 """
 from __future__ import annotations
 
-from functools import partial, reduce
+from functools import reduce
 from itertools import islice
 from operator import or_
 
@@ -14,45 +14,26 @@ from rocon_uri.regular.product import WORK_LIMIT, Product, numbers_in, union_wor
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Callable, Dict, List, Optional
+    from typing import Dict, List, Optional
 
-__all__ = ['Difference', 'difference', 'includes']
+__all__ = ['Difference', 'includes']
 
-#: A new state set is compared with this many of the sets visited first, which are small and so are
-#: most likely to be subsets of it. Comparing with all would make the walk quadratic; a subset that
-#: is missed costs a visit that was not needed, never a wrong answer.
+#: A new state set is compared with this many of the sets visited first, which are small and so most
+#: likely to be subsets of it. Comparing it with all would make the walk quadratic; a missed subset
+#: costs an unneeded visit, never a wrong answer.
 _COMPARED_SETS = 16
 
-#: Simulation is worked out for at most this many pairs of positions. It would take most of
-#: `WORK_LIMIT` for more; past it the walk visits more product states, with the same answer.
+#: The simulation preorder is computed for at most this many pairs of positions: for more it would
+#: take most of `WORK_LIMIT`. Without it the walk visits more product states, with the same answer.
 _MOST_PAIRS = 1 << 18
-
-
-def difference(one: Language, other: Language) -> Optional[str]:
-    """
-    A name that one language has and the other one does not have.
-
-    :param Language one: a language
-    :param Language other: another one
-    :returns: str, or ``None`` if all names of ``one`` are names of ``other``
-    :raises PatternTooComplex: if that takes too much work to decide
-
-    >>> from rocon_uri.regular.syntax import parse
-    >>> difference(Language('', parse('(ab)*c')), Language('', parse('c?(abc)*')))
-    'ababc'
-    """
-    found = Difference(one, other).find()
-    return None if found is None else found.text() + one.completion(found.positions)
 
 
 def includes(one: Language, other: Language) -> bool:
     """
     Does a language have all names that another one has?
 
-    :param Language one: a language
-    :param Language other: another one
     :returns: bool
-    :raises PatternTooComplex: if that takes too much work to decide
+    :raises PatternTooComplex: if deciding takes too much work
 
     >>> from rocon_uri.regular.syntax import parse
     >>> includes(Language('', parse('(ab)*a')), Language('', parse('a(ba){3}')))
@@ -68,12 +49,12 @@ class Difference(Product):
         """
         Find a name that the first language has and the other one does not have.
 
-        A state set of the other NFA needs no second visit where it has been visited with a subset
-        of it: the larger set accepts all that the smaller one accepts.
+        A state set of the other NFA needs no second visit if a subset of it has been visited: it
+        accepts all that the subset accepts.
 
-        :returns: Step after which the first language has such a name and the other one has none
-            to match it, or ``None`` if there is no such name
-        :raises PatternTooComplex: if that takes too much work
+        :returns: Step whose shortest completion in the first language is such a name, or ``None``
+            if there is no such name
+        :raises PatternTooComplex: if deciding takes too much work
         """
         simulated = self._simulated()
         met: Dict[int, int] = {}
@@ -84,47 +65,48 @@ class Difference(Product):
                     return Step(step, char, positions, others)
                 if others not in met:
                     self.spend(20 + union_work(others))
-                    met[others] = simulated(others)
+                    met[others] = union(simulated, others)
                 fresh = self._unmet(met, positions, others)
                 if fresh:
                     met[others] |= fresh
                     steps.append(Step(step, char, fresh, others))
         return None
 
-    def _simulated(self) -> Callable[[int], int]:
+    def _simulated(self) -> List[int]:
         """
-        For each set of the other NFA's positions, the positions that one of them simulates.
+        For each position of the other NFA, the positions that it simulates.
 
-        A position simulates another one if it reads every character that the other one reads, and
-        for whatever may follow the other one, something that simulates it may follow here. The
-        largest such relation is found by starting with all pairs that agree in what they read, and
-        taking out those that fail until none does. Where that takes long, the walk does without.
+        Position p simulates q if p reads every character that q reads, and whatever may follow q is
+        simulated by something that may follow p. The largest such relation is found by starting
+        with all pairs that agree in what they read, and removing those that fail until none does.
+        Where that takes too long, the relation is left empty.
         """
         follow, other_follow = self.one.follow, self.other.follow
         if len(follow) * len(other_follow) > _MOST_PAIRS:
-            return _nothing
+            return [0] * len(other_follow)
         before = [0] * len(follow)
         for position, following in enumerate(follow):
             for after in numbers_in(following):
                 before[after] |= 1 << position
-        precede, everything = partial(union, before), (1 << len(follow)) - 1
+        everything = (1 << len(follow)) - 1
         readers = {chars: sum(1 << position for position, reads in enumerate(self.one.reads)
                               if reads and not reads & ~chars) for chars in set(self.other.reads)}
         simulated = [readers[chars] for chars in self.other.reads]
-        simulated[0] = 1      # the end of a name, among the positions that may follow
-        round_work = len(other_follow) * (20 + len(follow) // 4) + 2 * _count(other_follow)
-        self.spend(2 * _count(follow))
+        simulated[0] = 1      # among the positions that may follow, 0 is the end of a name
+        round_work = len(other_follow) * (20 + len(follow) // 4) + 2 * _total_size(other_follow)
+        self.spend(2 * _total_size(follow))
         while self.work + round_work < WORK_LIMIT // 2:
             self.spend(round_work)
             known = list(simulated)
             for other in range(len(simulated) - 1, 0, -1):
                 able = reduce(or_, (simulated[after] for after in numbers_in(other_follow[other])))
-                simulated[other] &= ~precede(everything & ~able)
+                simulated[other] &= ~union(before, everything & ~able)
             if simulated == known:
-                return partial(union, simulated)
-        return _nothing
+                return simulated
+        return [0] * len(other_follow)
 
     def _unmet(self, met: Dict[int, int], positions: int, others: int) -> int:
+        """The positions that have not been visited with ``others`` or a subset of it."""
         self.spend(6 + self.cost)
         fresh = positions & ~met[others]
         missing = ~others
@@ -137,9 +119,5 @@ class Difference(Product):
         return fresh
 
 
-def _count(sets: List[int]) -> int:
-    return sum(format(members, 'b').count('1') for members in sets)
-
-
-def _nothing(positions: int) -> int:
-    return 0
+def _total_size(sets: List[int]) -> int:
+    return sum(bin(members).count('1') for members in sets)

@@ -1,4 +1,4 @@
-"""Whether two regular languages intersect: a shortest name that both have."""
+"""Do two regular languages intersect, and in which shortest name?"""
 from __future__ import annotations
 
 from rocon_uri.regular.language import BEGIN, Language, Step
@@ -15,10 +15,8 @@ def common_name(one: Language, other: Language) -> Optional[str]:
     """
     A shortest name that two languages have in common.
 
-    :param Language one: a language
-    :param Language other: another one
     :returns: str, or ``None`` if there is none
-    :raises PatternTooComplex: if that takes too much work to decide
+    :raises PatternTooComplex: if deciding takes too much work
 
     >>> from rocon_uri.regular.syntax import parse
     >>> common_name(Language('', parse('[a-e]+')), Language('', parse('.*[d-z]{2}')))
@@ -37,11 +35,11 @@ class Intersection(Product):
         """
         Find a shortest name in both languages.
 
-        The other language's positions are followed one by one. There are only as many pairs of
-        positions as the product of their numbers, and a pair needs no second visit.
+        The positions of the other language are followed one by one: a pair of positions needs no
+        second visit, and there are only as many pairs as the product of the two sizes.
 
         :returns: Step, the last one of the name, or ``None`` if there is no such name
-        :raises PatternTooComplex: if that takes too much work
+        :raises PatternTooComplex: if deciding takes too much work
         """
         met: Dict[int, int] = {}
         steps = [Step(None, '', BEGIN, BEGIN)]

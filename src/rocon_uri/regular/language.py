@@ -1,11 +1,11 @@
 """
-Regular languages over ROS names: which names a syntax tree matches.
+Regular languages of ROS names: which names a syntax tree matches.
 
-A language has only *legal ROS names*: a letter, then letters, digits and ``_``, of any length. It
-is held as Glushkov's NFA, whose states are the positions of the tree. A state set is an int with a
-bit for each position. The states of the DFA are such sets, made when a name first leads to them
-and kept in a bounded memo. So each character of a name takes one step, whatever the pattern, and
-the next name that goes the same way only looks the steps up.
+A language has *legal ROS names* only: a letter, then letters, digits and ``_``, of any length. Its
+NFA is Glushkov's, whose states are the positions of the tree; an NFA state set is an int with one
+bit a position. DFA states are NFA state sets, made when a name first reaches them and kept in a
+bounded memo. So every character of a name takes one step, whatever the pattern, and the next name
+that takes the same way only looks the steps up.
 """
 from __future__ import annotations
 
@@ -28,26 +28,25 @@ __all__ = ['BEGIN', 'Language', 'Step', 'language', 'union']
 BEGIN = 1           # the state set before the first character: position 0 alone
 _END = 1            # in a set of positions that may follow: the name may end here
 
-#: The DFA of a pattern can have 2 ** 4096 states, so its memo is bounded. A match begins with room
-#: for at least `_SPARE` states, which is enough for a name of 255 characters, or with a new memo;
-#: a longer name that fills it makes its other states without remembering them.
+#: A pattern can have 2 ** 4096 DFA states, so its memo is bounded. A match starts with room for at
+#: least `_SPARE` states, enough for a name of 255 characters, or with a new memo; a longer name
+#: that fills it makes its other states without remembering them.
 _STATES = 768
 _SPARE = 256
 
-#: About the bytes that all remembered languages may come to take: three of the largest, or hundreds
-#: of ordinary ones. Past it those that were not used for longest are made again when needed.
+#: Approximate limit in bytes for all remembered languages: three of the largest, or hundreds of
+#: ordinary ones. Above it the least recently used ones are forgotten.
 _MEMO_BYTES = 32 << 20
-
 
 _IS_ONE = bytes(octet == ord('1') for octet in range(256))
 
 
 def union(sets: List[int], selection: int) -> int:
     """
-    The union of some of many sets.
+    The union of selected sets.
 
-    :param sets: list of int, a set each
-    :param int selection: the set of the numbers of those to unite
+    :param sets: list of int, one set each
+    :param int selection: the set of the indices of those to unite
     :returns: int
 
     >>> union([0b0001, 0b0010, 0b1000], 0b101) == 0b1001
@@ -61,7 +60,7 @@ def union(sets: List[int], selection: int) -> int:
 
 
 class _State(_Transitions):
-    """A DFA state: for each class of characters met so far, as an octet, the next DFA state."""
+    """A DFA state: a dict from character classes met so far, as octets, to the next DFA state."""
 
     __slots__ = ('accepts', 'positions')
 
@@ -71,7 +70,7 @@ class _State(_Transitions):
 
 
 def _new_memo() -> Dict[int, _State]:
-    """DFA states by their NFA state sets."""
+    """The two first DFA states by their NFA state sets."""
     nowhere = _State(0, False)
     nowhere.update(dict.fromkeys(ALPHABET.encode(), nowhere))
     return {0: nowhere, BEGIN: _State(BEGIN, False)}
@@ -79,15 +78,15 @@ def _new_memo() -> Dict[int, _State]:
 
 class Language:
     """
-    The legal ROS names that a syntax tree matches; there has to be one.
+    The legal ROS names that a syntax tree matches; there is at least one.
 
-    Immutable but for its memo, and any number of threads may use it at once.
+    Immutable but for its memo; threads may share it.
 
     :param str text: the pattern as written, for errors
     :param Node tree: its syntax tree
 
-    ``work`` is what matching has cost so far: one for each transition that was not in the memo,
-    and one for every four positions. Where several threads match at once it is approximate.
+    ``work`` counts what matching has cost so far: one for each transition that was not in the memo,
+    and one for every four positions. It is approximate where several threads match at once.
 
     >>> from rocon_uri.regular.syntax import parse
     >>> bob = Language('bob_?[0-9]*', parse('bob_?[0-9]*'))
@@ -100,17 +99,16 @@ class Language:
         self.tree = tree
         self.work = 0
         size = tree.size + 1
-        follow, reads = [0] * size, [0] * size
-        tree.lay_out(1, _END, follow, reads)
-        follow[0] = tree.first << 1
         #: for each position, the characters that it reads
-        self.reads = reads
-        #: for each position, those that may come next
-        self.follow = follow
+        self.reads = [0] * size
+        #: for each position, the positions that may come next
+        self.follow = [0] * size
+        tree.lay_out(1, _END, self.follow, self.reads)
+        self.follow[0] = tree.first << 1
         #: the positions after which the name may end
-        self.last = reduce(or_, (1 << index for index in range(size) if follow[index] & _END))
-        self.char_class, self.readers = _classes(reads)
-        self._to_classes = _octets(self.char_class)
+        self.last = sum(1 << index for index in range(size) if self.follow[index] & _END)
+        self.char_class, self.readers = _classes(self.reads)
+        self._to_classes = bytes(ord(self.char_class.get(chr(octet), '\0')) for octet in range(256))
         self._lock = threading.Lock()
         self._memo = _new_memo()
         self._earlier: Dict[int, _State] = {}
@@ -122,11 +120,9 @@ class Language:
         :param str name: any text
         :returns: bool, ``False`` for what is not a legal ROS name
         """
-        memo = self._memo
-        if len(memo) > _STATES - _SPARE:
-            memo = self._fresh_memo()
+        memo = self._memo if len(self._memo) <= _STATES - _SPARE else self._fresh_memo()
         state = memo[BEGIN]
-        # octets, since to put a str into classes takes as long as all the rest
+        # as bytes: translating a str to classes takes as long as all the rest
         for octet in name.encode('ascii', 'replace').translate(self._to_classes):
             try:
                 state = state[octet]
@@ -137,10 +133,10 @@ class Language:
         return state.accepts
 
     def _fresh_memo(self) -> Dict[int, _State]:
-        with self._lock:        # others may still add to what is now the earlier memo
+        with self._lock:        # other threads may still add to what is now the earlier memo
             if len(self._memo) > _STATES - _SPARE:
                 for state in self._earlier.values():
-                    state.clear()       # since they hold each other
+                    state.clear()       # breaks their reference cycles
                 self._earlier, self._memo = self._memo, _new_memo()
             return self._memo
 
@@ -166,27 +162,19 @@ class Language:
 
     def following(self, positions: int) -> int:
         """
-        The positions that may come after any of some.
+        The positions that may come after those of a state set.
 
-        :param int positions: the set of positions that have just been read
+        :param int positions: the state set
         :returns: int
         """
         return union(self.follow, positions)
 
-    def example(self) -> str:
+    def example(self, positions: int = BEGIN) -> str:
         """
-        A shortest name of the language.
+        A shortest name of the language, or a shortest completion of a name.
 
+        :param int positions: the state set after the part of the name that has been read
         :returns: str, of lower-case letters if there is such a name
-        """
-        return self.completion(BEGIN)
-
-    def completion(self, positions: int) -> str:
-        """
-        A shortest text that makes a name of what has been read.
-
-        :param int positions: the set of positions that have just been read
-        :returns: str
         """
         steps, seen = [Step(None, '', positions)], positions
         for step in steps:
@@ -207,8 +195,8 @@ class Step:
 
     :param Step before: the step before, ``None`` at the beginning
     :param str char: the character read
-    :param int positions: the state set that it leads to
-    :param int others: that of another language, where two are walked
+    :param int positions: the state set reached
+    :param int others: the state set reached of another language, where two are walked
     """
 
     __slots__ = ('before', 'char', 'others', 'positions')
@@ -221,7 +209,7 @@ class Step:
         self.others = others
 
     def text(self) -> str:
-        """What has been read on the way here, as str."""
+        """What has been read so far, as str."""
         chars: List[str] = []
         step: Optional[Step] = self
         while step is not None:
@@ -230,33 +218,24 @@ class Step:
         return ''.join(reversed(chars))
 
 
-def _octets(char_class: Dict[str, str]) -> bytes:
-    """For `bytes.translate`: to the class of a character, and to 0 for what no name has."""
-    table = bytearray(256)
-    for char, name in char_class.items():
-        table[ord(char)] = ord(name)
-    return bytes(table)
-
-
 def _classes(reads: List[int]) -> Tuple[Dict[str, str], Dict[str, int]]:
     """
-    The alphabet in classes of characters that every position reads all or none of.
+    The character classes: each position reads all characters of a class or none.
 
-    Each is named by its first character: the class of every character, and the positions that
-    read a class.
+    Each is named after its first character. Returns the class of every character, and the set of
+    positions that read each class.
     """
-    readers: Dict[int, int] = {LETTERS: 0}      # which alone may be the first of a name
+    readers: Dict[int, int] = {LETTERS: 0}      # since only letters may start a name
     for index, chars in enumerate(reads):
         readers[chars] = readers.get(chars, 0) | 1 << index
     named: Dict[Tuple[bool, ...], str] = {}
     char_class = {char: named.setdefault(tuple(chars & BIT[char] != 0 for chars in readers), char)
                   for char in ALPHABET}
-    return char_class, {
-        name: reduce(or_, (found for chars, found in readers.items() if chars & BIT[name]), 0)
-        for name in named.values()}
+    return char_class, {name: sum(positions for chars, positions in readers.items()
+                                  if chars & BIT[name]) for name in named.values()}
 
 
-_languages: Dict[str, Language] = {}        # those used last are last
+_languages: Dict[str, Language] = {}        # the most recently used last
 _lock = threading.Lock()
 
 
@@ -265,7 +244,7 @@ def language(text: str, tree: Callable[[str], Node]) -> Language:
     The language of a pattern, from a bounded memo.
 
     :param str text: the pattern
-    :param tree: makes its syntax tree out of ``text``; asked if it is not in the memo
+    :param tree: function from ``text`` to its syntax tree; called if the memo lacks the pattern
     :returns: Language
     """
     with _lock:
@@ -278,12 +257,12 @@ def language(text: str, tree: Callable[[str], Node]) -> Language:
         _languages[text] = found
         room = _MEMO_BYTES - sum(map(_weight, _languages.values()))
         for oldest in list(_languages):
-            if room >= 0:       # at the latest with this one, whatever its size
+            if room >= 0:
                 break
             room += _weight(_languages.pop(oldest))
     return found
 
 
 def _weight(found: Language) -> int:
-    """The bytes that a language may come to take, about: most are state sets."""
+    """About the bytes that a language may grow to: most are state sets."""
     return (found.tree.size + 300) ** 2 // 2

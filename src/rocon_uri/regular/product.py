@@ -1,9 +1,8 @@
 """
-The product of two NFAs, walked with the work counted.
+The product of two NFAs, walked breadth first and with a limit on the work.
 
-A product state is a pair of NFA state sets. The walk is breadth first, so it comes to the shortest
-names first. `rocon_uri.regular.intersection` and `rocon_uri.regular.inclusion` say which product
-states need no second visit.
+A product state is a pair of NFA state sets. The subclasses in `rocon_uri.regular.intersection` and
+`rocon_uri.regular.inclusion` decide which product states need no second visit.
 """
 from __future__ import annotations
 
@@ -18,10 +17,10 @@ if TYPE_CHECKING:
 
 __all__ = ['WORK_LIMIT', 'Product', 'numbers_in', 'union_work']
 
-#: The work that one comparison may take. There are pairs of short patterns whose product has more
-#: states than memory holds, so a limit is needed; it counts work, not states, since one state can
-#: hold thousands of positions. A unit takes 0.1 to 0.2 microseconds and at most 20 bytes, so the
-#: limit is about 0.1 s and 12 MB. Past it `PatternTooComplex` is raised.
+#: The work that one comparison may take; more raises `PatternTooComplex`. The product of two short
+#: patterns can have more states than memory holds. Work is counted instead of states, since one
+#: state can hold thousands of positions. A unit takes 0.1 to 0.2 us and at most 20 bytes, so the
+#: limit is about 0.1 s and 12 MB.
 WORK_LIMIT = 600000
 
 
@@ -29,10 +28,7 @@ class Product:
     """
     Two languages side by side.
 
-    :param Language one: a language
-    :param Language other: another one
-
-    ``work`` is what the walk has cost so far, in the units of `WORK_LIMIT`; ``cost`` is that of
+    ``work`` is what the walk has cost so far, in the units of `WORK_LIMIT`; ``cost`` is the cost of
     one operation on a state set.
     """
 
@@ -52,7 +48,7 @@ class Product:
         The product states that can come next.
 
         :param Step step: where the walk is
-        :returns: iterator of (str, int, int): a character, and the state set of either language
+        :returns: iterator of (str, int, int): a character and the state set of each language
         """
         self.spend(20 + self.cost * len(self._classes)
                    + union_work(step.positions) + union_work(step.others))
@@ -67,7 +63,7 @@ class Product:
         Count work.
 
         :param int work: how much
-        :raises PatternTooComplex: if that makes more than `WORK_LIMIT`
+        :raises PatternTooComplex: if the total exceeds `WORK_LIMIT`
         """
         self.work += work
         if self.work > WORK_LIMIT:
@@ -79,7 +75,7 @@ class Product:
 
 def union_work(positions: int) -> int:
     """
-    About what the union of the sets of some positions costs, in the units of `WORK_LIMIT`.
+    About the cost of uniting the sets of some positions, in the units of `WORK_LIMIT`.
 
     :param int positions: the positions
     :returns: int, 0 for a single position
@@ -90,10 +86,10 @@ def union_work(positions: int) -> int:
 
 def numbers_in(positions: int) -> Iterator[int]:
     """
-    The numbers in a set.
+    The numbers of the positions in a set, in ascending order.
 
-    :param int positions: a set of numbers, one bit each
-    :returns: iterator of int, in ascending order
+    :param int positions: the set, one bit a position
+    :returns: iterator of int
     """
     while positions:
         lowest = positions & -positions

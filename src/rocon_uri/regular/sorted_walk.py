@@ -1,8 +1,8 @@
 """
-Which of a million names in alphabetical order a regular language has.
+Which of a million names in alphabetical order are in a regular language.
 
-Names that start alike are read at once as far as they do, and no further where that decides about
-them. Where they have much in common this takes a tenth of the time that reading each name takes.
+The common prefix of a range of names is read once, and the rest of them only if the prefix does not
+decide. Where names have much in common this takes a tenth of the time of reading each name.
 """
 from __future__ import annotations
 
@@ -24,16 +24,14 @@ else:
 
 __all__ = ['SortedWalk']
 
-_FEW = 50               # names: it costs more to find out what so few share than it saves
-_STATES = 1024          # DFA states that are remembered; past it all are forgotten, and made again
+_FEW = 50               # names: for so few, finding the common prefix costs more than it saves
+_STATES = 1024          # DFA states that are remembered; when there are more, all are forgotten
 _AFTER_NAMES = '\x7f'   # greater than any character of a name
 
 
 class SortedWalk:
     """
-    Names that are many, read by one language.
-
-    :param Language language: any
+    A language that reads many sorted names.
 
     >>> from rocon_uri.regular.language import Language
     >>> from rocon_uri.regular.syntax import parse
@@ -57,7 +55,7 @@ class SortedWalk:
         matches = [False] * len(names)
         ranges = [(0, len(names), 0, self.state(BEGIN))]
         while ranges:
-            # names[start:end] share the characters up to depth, which led here
+            # the first `depth` characters of names[start:end] are equal and lead to this state
             start, end, depth, here = ranges.pop()
             if end - start <= _FEW:
                 matches[start:end] = [reduce(getitem, name[depth:], here).accepts
@@ -82,7 +80,7 @@ class SortedWalk:
         if found is None:
             if len(self._states) >= _STATES:
                 for known in self._states.values():
-                    known.clear()       # since they hold each other
+                    known.clear()       # breaks their reference cycles
                 self._states.clear()
             found = self._states[positions] = _State(self, positions)
         return found

@@ -1,13 +1,12 @@
 r"""
-The text of a regular expression on the name field, read into a syntax tree.
+Parser: from the text of a regular expression in the name field to a syntax tree.
 
-The syntax is ``regex`` in `rocon_uri.grammar.EBNF`: what Python's regular expressions have in
-common with everybody else's, over the 63 characters of a ROS name. The pattern covers the whole
-name, so that the anchors at its ends are redundant; ``.``, ``\D``, ``\W`` and negated classes stay
-within the 63.
+The syntax is ``regex`` in `rocon_uri.grammar.EBNF`, the common core of regular expression syntaxes,
+over the 63 characters of a ROS name. The pattern covers the whole name, so the anchors at its ends
+are redundant; ``.``, ``\D``, ``\W`` and negated classes match only these 63 characters.
 
-Whatever else there is in regular expressions is refused, each by an error of its own that says
-what to write instead. Reading takes time linear in the text.
+Every other construct is refused with an error of its own that says what to write instead. Reading
+takes time linear in the length of the text.
 """
 from __future__ import annotations
 
@@ -16,7 +15,7 @@ import re
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.sources.wording import quoted
 from rocon_uri.regular.tree import (
-    BIT, DIGITS, LETTERS, LOWER, NOTHING, UPPER, WORD, Node, characters, choice, repeat, sequence)
+    BIT, DIGITS, LETTERS, LOWER, NOTHING, UPPER, WORD, Characters, Node, choice, repeat, sequence)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ['COUNT_LIMIT', 'DEPTH_LIMIT', 'SIZE_LIMIT', 'parse']
 
-DEPTH_LIMIT = 32    # groups within groups
+DEPTH_LIMIT = 32    # nested groups
 COUNT_LIMIT = 255   # in {m,n}
 SIZE_LIMIT = 4096   # atoms, once counted repetition is written out
 
@@ -34,7 +33,7 @@ _count = re.compile(r'\{([0-9]*)(,?)([0-9]*)\}').match
 _reference = re.compile(r'\\[0-9]+').match
 _flags = re.compile(r'\(\?[a-zA-Z-]+[:)]').match
 
-# What follows '(', what it is called, and what to do about it. The first that fits counts.
+# The text after '(', what the construct is called, what to write instead. The first match counts.
 _SPECIAL_GROUPS = (
     ('?=', 'look-ahead', 'write out the names that are meant'),
     ('?!', 'look-ahead', 'write out the names that are meant'),
@@ -49,14 +48,18 @@ _SPECIAL_GROUPS = (
     ('?', 'group', "write '(' or '(?:'"),
 )
 
+_CLASS_ADVICE = {
+    '-': "in a class it stands only between the ends of a range, as in '[a-z]'",
+    '[': "a class holds characters, ranges, '\\d', '\\D', '\\w' and '\\W'"}
+
 
 def parse(text: str) -> Node:
     r"""
-    Read a regular expression on the name field.
+    Read a regular expression in the name field.
 
     :param str text: the expression, of at most 255 characters
     :returns: Node, the tree
-    :raises RoconURIValueError: if the text is not in the syntax, passes a limit, or matches no
+    :raises RoconURIValueError: if the text is not in the syntax, exceeds a limit, or matches no
         legal ROS name; ``span`` is where in the text the fault is
 
     >>> parse('^(?:a|b)+$') == parse('[ab][ab]*')
@@ -65,114 +68,88 @@ def parse(text: str) -> Node:
     Traceback (most recent call last):
     rocon_uri.exceptions.RoconURIValueError: ')' closes no group, at character 2 of 'a)'
     """
-    tree = _Reader(text).read()
+    reader = _Reader(text)
+    tree = reader.read()
     if not tree.opening & LETTERS:
         reason = ('a ROS name starts with a letter' if tree.opening else
-                  'it asks for a character that is not in ROS names' if tree is NOTHING else
+                  'it asks for a character that is not in ROS names' if tree == NOTHING else
                   'a ROS name has at least one character')
-        raise _error(text, 'name pattern %s admits no name: %s' % (quoted(text), reason),
-                     0, len(text))
+        raise reader.error('name pattern %s admits no name: %s' % (quoted(text), reason),
+                           0, len(text))
     return tree
 
 
-def _error(text: str, problem: str, start: int, end: int, advice: str = '') -> RoconURIValueError:
-    return RoconURIValueError(problem, text, 'name', text, (start, end), advice=advice)
-
-
-class _Group:
-    """A group that is being read: where it starts, its branches, its atoms written out."""
-
-    __slots__ = ('atoms', 'branches', 'pieces', 'start')
-
-    def __init__(self, start: int) -> None:
-        self.start = start
-        self.atoms = 0
-        self.pieces: List[Node] = []
-        self.branches: List[Node] = []
-
-    def end_branch(self) -> None:
-        self.branches.append(sequence(self.pieces))
-        self.pieces = []
-
-    def node(self) -> Node:
-        self.end_branch()
-        return choice(self.branches)
-
-
 class _Reader:
-    """Goes through a text once, from left to right, with a stack for the groups."""
+    """A recursive descent parser, which reads a text once, from left to right."""
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self.at = 1 if text.startswith('^') else 0
+        self.at = self.begin = 1 if text.startswith('^') else 0
         self.end = max(self.at, len(text) - 1 if text.endswith('$') else len(text))
 
     def error(self, problem: str, start: int, end: int, advice: str = '') -> RoconURIValueError:
-        return _error(self.text, problem, start, end, advice)
+        return RoconURIValueError(problem, self.text, 'name', self.text, (start, end),
+                                  advice=advice)
 
     def refused(self, what: str, start: int, end: int, advice: str) -> RoconURIValueError:
         shown = quoted(self.text[start:end])
         return self.error('%s %s is not supported in a name' % (what, shown), start, end, advice)
 
     def read(self) -> Node:
-        group, outer = _Group(0), []
-        while self.at < self.end:
+        tree, _ = self.branches(0)
+        if self.at < self.end:
+            raise self.error("')' closes no group", self.at, self.at + 1)
+        return tree
+
+    def branches(self, depth: int) -> Tuple[Node, int]:
+        """The content of a group, and how many atoms it has once repetition is written out."""
+        branches: List[List[Node]] = [[]]
+        size = 0
+        while self.at < self.end and self.text[self.at] != ')':
             start, char = self.at, self.text[self.at]
-            if char == '(':
-                outer.append(group)
-                self.open_group(len(outer))
-                group = _Group(start)
-                continue
             if char == '|':
-                if not outer:
-                    raise self.or_operator()
-                group.end_branch()
+                if not depth:
+                    raise self.error("the or operator '|' is not for the name", start, start + 1,
+                                     'write %s' % quoted('(%s)' % self.text[self.begin:self.end]))
                 self.at += 1
+                branches.append([])
                 continue
-            if char == ')':
-                if not outer:
-                    raise self.error("')' closes no group", start, start + 1)
-                self.at += 1
-                start, node, atoms, group = group.start, group.node(), group.atoms, outer.pop()
-            else:
-                node, atoms = characters(self.atom(char)), 1
+            node, atoms = self.group(depth + 1) if char == '(' else (Characters(self.atom(char)), 1)
             least, most = self.quantifier()
-            group.atoms += atoms * (max(least, 1) if most is None else most)
-            if group.atoms > SIZE_LIMIT:
+            size += atoms * (max(least, 1) if most is None else most)
+            if size > SIZE_LIMIT:
                 raise self.error(
                     'name pattern %s is too large: more than %d atoms once counted repetition is '
                     'written out' % (quoted(self.text), SIZE_LIMIT), start, self.at)
-            group.pieces.append(repeat(node, least, most))
-        if outer:
-            raise self.error("'(' is not closed", group.start, group.start + 1)
-        return group.node()
+            branches[-1].append(repeat(node, least, most))
+        return choice(map(sequence, branches)), size
 
-    def open_group(self, depth: int) -> None:
+    def group(self, depth: int) -> Tuple[Node, int]:
         start = self.at
         if depth > DEPTH_LIMIT:
             raise self.error('groups are at most %d deep' % DEPTH_LIMIT, start, start + 1)
         self.at += 1
-        if not self.text.startswith('?', self.at):
-            return
         if self.text.startswith('?:', self.at):
             self.at += 2
-            return
+        elif self.text.startswith('?', self.at):
+            raise self.special_group(start)
+        content = self.branches(depth)
+        if self.at == self.end:
+            raise self.error("'(' is not closed", start, start + 1)
+        self.at += 1
+        return content
+
+    def special_group(self, start: int) -> RoconURIValueError:
         flags = _flags(self.text, start)
         if flags:
-            raise self.refused('flag', start, flags.end(),
-                               "write both cases, as in '[Bb]ob', if that is what it is for")
-        for opening, what, advice in _SPECIAL_GROUPS:
-            if self.text.startswith(opening, self.at):
-                raise self.refused(what, start, self.at + len(opening), advice)
-
-    def or_operator(self) -> RoconURIValueError:
-        written = self.text[1:] if self.text.startswith('^') else self.text
-        written = written[:-1] if written.endswith('$') else written
-        return self.error("the or operator '|' is not for the name", self.at, self.at + 1,
-                          'write %s' % quoted('(%s)' % written))
+            return self.refused('flag', start, flags.end(),
+                                "write both cases, as in '[Bb]ob', if that is what it is for")
+        opening, what, advice = next(row for row in _SPECIAL_GROUPS
+                                     if self.text.startswith(row[0], self.at))
+        return self.refused(what, start, self.at + len(opening), advice)
 
     def quantifier(self) -> Tuple[int, Optional[int]]:
-        """What stands behind an atom: how often it is there at least and at most."""
+        """How often the atom before is repeated: at least and at most (None: no limit)."""
         char = self.text[self.at:self.at + 1] if self.at < self.end else ''
         start = self.at
         if char == '{':
@@ -199,23 +176,22 @@ class _Reader:
         if not found:
             raise self.error("'{' starts no count", start, start + 1,
                              "write '{m}', '{m,}' or '{m,n}'")
-        least, comma, most = found.groups()
         self.at = end = found.end()
+        shown = quoted(found.group())
+        least, comma, most = found.groups()
         if not least:
-            advice = "write '{0,%s}'" % most if most else "write '{m}', '{m,}' or '{m,n}'"
-            raise self.error('count %s has no least number' % quoted(found.group()), start, end,
-                             advice)
+            raise self.error('count %s has no least number' % shown, start, end, "write '{0,%s}'"
+                             % most if most else "write '{m}', '{m,}' or '{m,n}'")
         low, high = int(least), int(most) if most else None if comma else int(least)
         if max(low, high or 0) > COUNT_LIMIT:
-            raise self.error('count %s is too large: at most %d'
-                             % (quoted(found.group()), COUNT_LIMIT), start, end)
+            raise self.error('count %s is too large: at most %d' % (shown, COUNT_LIMIT), start, end)
         if high is not None and high < low:
-            raise self.error('count %s is out of order' % quoted(found.group()), start, end,
+            raise self.error('count %s is out of order' % shown, start, end,
                              "write '{%d,%d}'" % (high, low))
         return low, high
 
     def atom(self, char: str) -> int:
-        """The characters that the atom here may read; not for groups."""
+        """The set of characters that the next atom matches; not for groups."""
         start = self.at
         if char == '\\':
             return self.escape()
@@ -235,9 +211,9 @@ class _Reader:
                              'leave it out: a pattern covers the whole name')
         raise self.not_in_names(char, start)
 
-    def not_in_names(self, char: str, start: int) -> RoconURIValueError:
+    def not_in_names(self, char: str, start: int, advice: str = '') -> RoconURIValueError:
         return self.error("%s cannot stand in a ROS name, which has only letters, digits and '_'"
-                          % quoted(char), start, start + 1)
+                          % quoted(char), start, start + 1, advice)
 
     def escape(self) -> int:
         start = self.at
@@ -258,7 +234,7 @@ class _Reader:
                            'name needs one')
 
     def char_class(self) -> int:
-        """The characters of a class whose ``[`` has been read."""
+        """The set of characters of a class whose ``[`` has been read."""
         opened = self.at - 1
         negated = self.text.startswith('^', self.at)
         self.at += negated
@@ -275,25 +251,17 @@ class _Reader:
                 chars |= self.escape()
                 continue
             if char not in BIT:
-                raise self.not_in_class(char, start)
+                raise self.not_in_names(char, start, _CLASS_ADVICE.get(char, ''))
             self.at += 1
             chars |= self.char_range(char, start) if self.text.startswith('-', self.at) \
                 else BIT[char]
         raise self.error("'[' is not closed", opened, opened + 1)
 
-    def not_in_class(self, char: str, start: int) -> RoconURIValueError:
-        error = self.not_in_names(char, start)
-        if char == '-':
-            error.advice = "in a class it stands only between the ends of a range, as in '[a-z]'"
-        elif char == '[':
-            error.advice = "a class holds characters, ranges, '\\d', '\\D', '\\w' and '\\W'"
-        return error
-
     def char_range(self, low: str, start: int) -> int:
-        """The characters of a range whose first end has been read, and whose ``-`` is next."""
+        """The set of characters of a range whose first end has been read."""
         high = self.text[self.at + 1:self.at + 2]
         if high not in BIT:
-            raise self.not_in_class('-', self.at)
+            raise self.not_in_names('-', self.at, _CLASS_ADVICE['-'])
         self.at += 2
         written = quoted(self.text[start:self.at])
         if not any(BIT[low] & kind and BIT[high] & kind for kind in (LOWER, UPPER, DIGITS)):

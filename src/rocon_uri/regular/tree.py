@@ -1,16 +1,15 @@
 """
-What a regular expression over ROS name characters comes to: a normalised syntax tree.
+Normalised syntax trees of regular expressions over the characters of ROS names.
 
-A node is made by one of four functions, `characters`, `sequence`, `choice` and `repeat`,
-which simplify as they build: equal branches are dropped, branches of one
-character become one set of characters, repetition of repetition becomes one repetition. A tree
-therefore has no part that matches nothing, unless the whole of it is `NOTHING`.
+`Characters`, `sequence`, `choice` and `repeat` make the nodes and simplify as they build: they drop
+equal branches, unite branches of one character, and turn repetition of repetition into one. No
+part of a tree matches nothing, unless the whole tree is `NOTHING`.
 
-Every node knows how many *positions* it has, which are the single characters in it once counted
-repetition is written out, and lays them out as an automaton (Glushkov's): for each position, the
-characters that it reads and the positions that may read the next character. Sets of positions are
-ints, one bit each. Copies of a repeated part are written out as ``r(r(r)?)?``, so that each leads
-to the next one only and the automaton stays small.
+The Glushkov positions of a node are its single characters once counted repetition is written out,
+and the node can write them into an NFA: for each position, the characters that it reads and the
+set of positions that may come next. A set of positions is an int with one bit each. Copies of a
+repeated part are written out as ``r(r(r)?)?``: each is followed by the next one only, which keeps
+the NFA small.
 """
 from __future__ import annotations
 
@@ -18,10 +17,10 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Dict, Iterable, List, Optional, Tuple
 
-__all__ = ['ALPHABET', 'BIT', 'DIGITS', 'EMPTY_TEXT', 'LETTERS', 'LOWER', 'NOTHING', 'UPPER',
-           'WORD', 'Node', 'characters', 'choice', 'glob', 'literal_ends', 'repeat', 'sequence']
+__all__ = ['ALPHABET', 'BIT', 'DIGITS', 'LETTERS', 'LOWER', 'NOTHING', 'UPPER', 'WORD',
+           'Characters', 'Node', 'choice', 'glob', 'literal_ends', 'repeat', 'sequence']
 
-# The order is that of preference where an example name is made up.
+# Example names prefer the characters that come first.
 ALPHABET = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_'
 BIT: Dict[str, int] = {char: 1 << index for index, char in enumerate(ALPHABET)}
 LOWER = (1 << 26) - 1
@@ -32,26 +31,20 @@ WORD = (1 << 63) - 1
 
 
 class Node:
-    """
-    A part of a syntax tree; immutable, and equal to another that is built alike.
-
-    ``size`` is the number of its positions, ``first`` the set of those that may read its first
-    character (counted from its own first position), ``opening`` the set of characters that they
-    read, and ``nullable`` whether it matches the empty text.
-    """
+    """A part of a syntax tree; immutable, and equal to another of the same structure."""
 
     __slots__ = ('first', 'key', 'nullable', 'opening', 'size')
-    key: Tuple[object, ...]
-    size: int
-    nullable: bool
-    first: int
-    opening: int
+    key: Tuple[object, ...]     # the structure
+    size: int           # how many positions it has
+    nullable: bool      # does it match the empty text?
+    first: int          # the positions that may read its first character; its own first one is 0
+    opening: int        # the characters that they read
 
     def lay_out(self, base: int, after: int, follow: List[int], reads: List[int]) -> None:
         """
-        Write the positions of this part into an automaton.
+        Write the positions of this part into an NFA.
 
-        :param int base: the number that its first position has there
+        :param int base: the number of its first position there
         :param int after: the set of positions that may come after this part
         :param follow: list of int, for each position the set of those that may come next
         :param reads: list of int, for each position the set of characters that it reads
@@ -64,11 +57,17 @@ class Node:
     def __hash__(self) -> int:
         return hash(self.key)
 
-    def __repr__(self) -> str:
-        return repr(self.key)
 
+class Characters(Node):
+    """
+    One character out of a set.
 
-class _Characters(Node):
+    :param int chars: the set, as a sum of values of `BIT`; 0 makes `NOTHING`
+
+    >>> Characters(BIT['a'] | BIT['b']).size
+    1
+    """
+
     __slots__ = ('chars',)
 
     def __init__(self, chars: int) -> None:
@@ -131,12 +130,12 @@ class _Repeat(Node):
         self.item, self.least, self.most = item, least, most
         self.copies = max(least, 1) if most is None else most
         self.size = self.copies * item.size
-        # A nullable item comes with least 0: an item left empty is an item left off at the end.
+        # Where the item is nullable, least is 0: copies that match nothing are left off at the end.
         self.first, self.opening, self.nullable = item.first, item.opening, least == 0
 
     def lay_out(self, base: int, after: int, follow: List[int], reads: List[int]) -> None:
         first, size = self.item.first, self.item.size
-        for count in range(self.copies, 0, -1):     # how many copies have been read at its end
+        for count in range(self.copies, 0, -1):     # copies read at the end of this one
             start = base + (count - 1) * size
             exits = after if count >= self.least else 0
             if count < self.copies:
@@ -146,37 +145,21 @@ class _Repeat(Node):
             self.item.lay_out(start, exits, follow, reads)
 
 
-NOTHING: Node = _Characters(0)
-EMPTY_TEXT: Node = _Sequence(())
-
-
-def characters(chars: int) -> Node:
-    """
-    One character out of a set.
-
-    :param int chars: the set, as a sum of values of `BIT`; 0 gives `NOTHING`
-    :returns: Node
-
-    >>> characters(BIT['a'] | BIT['b']).size
-    1
-    """
-    return _Characters(chars) if chars else NOTHING
+NOTHING: Node = Characters(0)
+_EMPTY: Node = _Sequence(())
 
 
 def sequence(items: Iterable[Node]) -> Node:
     """
-    One part after the other.
+    Parts one after the other.
 
-    :param items: iterable of Node
-    :returns: Node
-
-    >>> a = characters(BIT['a'])
+    >>> a = Characters(BIT['a'])
     >>> sequence([a, repeat(a, 0, None)]) == repeat(a, 1, None)
     True
     """
     flat: List[Node] = []
     for part in items:
-        if part is NOTHING:
+        if part == NOTHING:
             return NOTHING
         for item in part.items if isinstance(part, _Sequence) else (part,):
             joined = _joined(flat[-1], item) if flat else None
@@ -184,11 +167,11 @@ def sequence(items: Iterable[Node]) -> Node:
                 flat.append(item)
             else:
                 flat[-1] = joined
-    return flat[0] if len(flat) == 1 else _Sequence(tuple(flat)) if flat else EMPTY_TEXT
+    return flat[0] if len(flat) == 1 else _Sequence(tuple(flat))
 
 
 def _joined(left: Node, right: Node) -> Optional[Node]:
-    """Two neighbours as one repetition: ``x*x`` is ``x+``. None where they are not of one x."""
+    """Two neighbours as one repetition: ``x*x`` is ``x+``. None where they repeat different x."""
     if not isinstance(left, _Repeat) and not isinstance(right, _Repeat):
         return None
     item, least, most = _repetition(left)
@@ -205,54 +188,48 @@ def _repetition(node: Node) -> Tuple[Node, int, Optional[int]]:
 
 def choice(branches: Iterable[Node]) -> Node:
     """
-    Any one of several parts.
+    One of several parts.
 
-    :param branches: iterable of Node
-    :returns: Node
-
-    >>> choice([characters(BIT['a']), characters(BIT['b'])]).size
+    >>> choice([Characters(BIT['a']), Characters(BIT['b'])]).size
     1
     """
     single, empty = 0, False
     distinct: Dict[Node, None] = {}
     for part in branches:
         for branch in part.branches if isinstance(part, _Choice) else (part,):
-            if isinstance(branch, _Characters):
+            if isinstance(branch, Characters):
                 single |= branch.chars
-            elif branch == EMPTY_TEXT:
+            elif branch == _EMPTY:
                 empty = True
             else:
                 distinct[branch] = None
-    several = ((characters(single),) if single else ()) + tuple(distinct)
-    if not several:
-        return EMPTY_TEXT if empty else NOTHING
-    node = several[0] if len(several) == 1 else _Choice(several)
+    several = ((Characters(single),) if single else ()) + tuple(distinct)
+    node = _Choice(several) if len(several) > 1 else several[0] if several else NOTHING
     return repeat(node, 0, 1) if empty else node
 
 
 def repeat(item: Node, least: int, most: Optional[int]) -> Node:
     """
-    A part several times over.
+    A part several times in a row.
 
     :param Node item: the part
-    :param int least: how often it is there at least
-    :param most: int, how often at most; ``None`` where there is no limit
-    :returns: Node
+    :param int least: how often at least
+    :param most: int, how often at most; ``None`` for no limit
 
-    >>> a = characters(BIT['a'])
+    >>> a = Characters(BIT['a'])
     >>> repeat(repeat(a, 0, 1), 3, None) == repeat(a, 0, None)
     True
     """
-    if most == 0 or item == EMPTY_TEXT:
-        return EMPTY_TEXT
-    if item is NOTHING:
-        return NOTHING if least else EMPTY_TEXT
+    if most == 0 or item == _EMPTY:
+        return _EMPTY
+    if item == NOTHING:
+        return NOTHING if least else _EMPTY
     if item.nullable:
         least = 0
     if most == 1 and (least == 1 or item.nullable):
         return item
     if isinstance(item, _Repeat) and (item.least <= 1 or least == most):
-        # The counts that come out leave no gap, so that one repetition has them all.
+        # The total counts leave no gap, so one repetition has them all.
         most = None if most is None or item.most is None else item.most * most
         return repeat(item.item, item.least * least, most)
     return _Repeat(item, least, most)
@@ -263,21 +240,20 @@ def glob(text: str) -> Node:
     The tree of a literal name or a glob.
 
     :param str text: name characters and ``*``
-    :returns: Node
 
     >>> glob('a*').size
     2
     """
-    return sequence(repeat(characters(WORD), 0, None) if char == '*' else characters(BIT[char])
+    return sequence(repeat(Characters(WORD), 0, None) if char == '*' else Characters(BIT[char])
                     for char in text)
 
 
 def literal_ends(tree: Node) -> Tuple[str, str]:
     """
-    What every text that a tree matches starts and ends with, as far as it is plain to see.
+    What every text that a tree matches starts and ends with, as far as its structure shows.
 
     :param Node tree: the tree
-    :returns: (str, str), the prefix and the suffix, each ``''`` if none can be seen
+    :returns: (str, str), the prefix and the suffix, each ``''`` if none is known
 
     >>> literal_ends(glob('ab*c'))
     ('ab', 'c')
@@ -290,7 +266,7 @@ def _literal_run(items: Iterable[Node]) -> str:
     run = ''
     for node in items:
         item, least, most = _repetition(node)
-        if not isinstance(item, _Characters) or item.chars & (item.chars - 1):
+        if not isinstance(item, Characters) or item.chars & (item.chars - 1):
             break
         run += ALPHABET[item.chars.bit_length() - 1] * least
         if least != most:
