@@ -1,15 +1,12 @@
 """
-Many resources, and requests that are answered without asking each of them.
+Many resources in one index, which answers a request without comparing it with each of them.
 
-Resources are of few kinds, even where there are a million of them: a kind is the three fields with
-registered values, and the concert. A request is compared with each kind, not with each resource.
-Within a kind, names are found in order (`rocon_uri.name_index`), and a pattern that many resources
-have is compared once.
+Even a million resources are of few kinds: a kind is a concert and the three fields with registered
+values. A request is compared with each kind, and within a kind `rocon_uri.name_index` finds names.
 """
 from __future__ import annotations
 
 from collections.abc import Mapping, MutableMapping
-from itertools import chain
 
 from rocon_uri.exceptions import PatternTooComplex, UnregisteredValue
 from rocon_uri.sources.wording import quoted
@@ -33,16 +30,16 @@ __all__ = ['ResourceIndex']
 
 class ResourceIndex(Resources):
     """
-    A mapping from resources to payloads of the caller's, which requests are matched with.
+    A mapping from resources to the caller's payloads, which answers requests.
 
-    A resource is given as str or RoconURI and comes back as RoconURI. It may have alternatives,
-    groups and a pattern itself. As in a dict, resources come in the order in which they were
-    added, and an equal one replaces the payload and keeps its place.
+    A resource is given as str or RoconURI and comes back as RoconURI. It may itself have
+    alternatives, groups and a pattern. As in a dict, resources are in insertion order, and an equal
+    resource replaces the payload and keeps its place.
 
-    A request is str or RoconURI too. It matches the resources with which `is_compatible` says it
-    is compatible, and a question costs what its answer is worth, however many resources there
-    are; only a pattern that says neither how a name starts nor how it ends is tried on all names.
-    What a question about names needs first is built when it is first asked.
+    A request is str or RoconURI too, and matches the resources that `is_compatible` accepts for
+    it. An answer takes time in proportion to its length, not to the number of resources; only a
+    pattern with neither prefix nor suffix is matched against all names. What requests for names
+    need is built by the first of them.
 
     :param resources: a mapping from resources to payloads, or an iterable of resources, whose
         payload is then None
@@ -66,12 +63,13 @@ class ResourceIndex(Resources):
         self._numbers: Dict[RoconURI, int] = {}     # larger for one that was added later
         self._resources: Dict[int, RoconURI] = {}
         self._payloads: Dict[int, Any] = {}         # only those that are not None
-        self._kinds: Dict[KindKey, _Kind] = {}
+        #: for each kind, its fields as a URI with any name, and its resources
+        self._kinds: Dict[KindKey, Tuple[RoconURI, NameIndex]] = {}
         self._next_number = 0
 
     def add(self, uri: Resource, payload: Any = None) -> None:
         """
-        Add a resource, or give the one that is there another payload.
+        Add a resource, or replace the payload of one that is there.
 
         :param uri: RoconURI, or str that is parsed
         :param payload: anything
@@ -80,12 +78,11 @@ class ResourceIndex(Resources):
         number = self._numbers.setdefault(uri, self._next_number)
         if number == self._next_number:
             self._next_number += 1
+            self._resources[number] = uri
             key = _kind_key(uri)
-            kind = self._kinds.get(key)
-            if kind is None:
-                kind = self._kinds[key] = _Kind(uri)
-            kind.resources[number] = self._resources[number] = uri
-            kind.names.add(number, uri)
+            if key not in self._kinds:
+                self._kinds[key] = with_any_name(uri), NameIndex()
+            self._kinds[key][1].add(number, uri)
         if payload is None:
             self._payloads.pop(number, None)
         else:
@@ -101,23 +98,27 @@ class ResourceIndex(Resources):
 
     def find(self, request: Resource) -> Iterator[RoconURI]:
         """
-        The resources that match a request, in the order in which they were added.
+        The resources that match a request, in insertion order.
 
-        They are those that were there when this was called, whatever is changed in between.
+        Later changes of the index do not change the answer.
 
         :param request: RoconURI, or str that is parsed
         :returns: iterator of RoconURI
-        :raises PatternTooComplex: after all others, if there are resources with a pattern that
-            takes too much work to compare; these are its ``undecided``, a list of RoconURI
+        :raises PatternTooComplex: by the iterator, after all that match, if there are resources
+            whose pattern takes too much work to compare: ``undecided``, a list of RoconURI
 
         >>> list(ResourceIndex(['rocon:/pr2/bob', 'rocon:/pr2|pc/b*']).find('rocon:/pc'))
         [RoconURI('rocon:/pr2|pc/b*/*/*')]
         """
-        request = parse(request)
-        undecided: List[int] = []
-        numbers = sorted(chain.from_iterable(self._matches(request, undecided)))
-        return _with_error_last(list(map(self._resources.__getitem__, numbers)),
-                                self._error(request, undecided))
+        numbers: List[int] = []
+        undecided = None
+        try:
+            for found in self._matches(parse(request)):
+                numbers += found
+        except PatternTooComplex as error:
+            undecided = error
+        numbers.sort()
+        return _with_error_last(list(map(self._resources.__getitem__, numbers)), undecided)
 
     def count(self, request: Resource) -> int:
         """
@@ -125,19 +126,12 @@ class ResourceIndex(Resources):
 
         :param request: RoconURI, or str that is parsed
         :returns: int
-        :raises PatternTooComplex: if that takes too much work to decide for some of them; these
-            are its ``undecided``, a list of RoconURI
+        :raises PatternTooComplex: if some are undecided, as described under `find`
 
         >>> ResourceIndex(['rocon:/pr2/bob', 'rocon:/pr2|pc/b*']).count('rocon:/*/bob')
         2
         """
-        request = parse(request)
-        undecided: List[int] = []
-        count = sum(map(len, self._matches(request, undecided)))
-        error = self._error(request, undecided)
-        if error:
-            raise error
-        return count
+        return sum(map(len, self._matches(parse(request))))
 
     def any(self, request: Resource) -> bool:
         """
@@ -145,52 +139,42 @@ class ResourceIndex(Resources):
 
         :param request: RoconURI, or str that is parsed
         :returns: bool
-        :raises PatternTooComplex: if none is known to match, and for some of them that takes too
-            much work to decide; these are its ``undecided``, a list of RoconURI
+        :raises PatternTooComplex: if none matches and some are undecided, as described under `find`
 
         >>> ResourceIndex(['rocon:/pr2/bob', 'rocon:/pr2|pc/b*']).any('rocon:/*/alice')
         False
         """
-        request = parse(request)
-        undecided: List[int] = []
-        if any(self._matches(request, undecided)):
-            return True
-        error = self._error(request, undecided)
-        if error:
-            raise error
-        return False
+        return any(self._matches(parse(request)))
 
-    def _matches(self, request: RoconURI, undecided: List[int]) -> Iterator[Collection[int]]:
-        """The numbers of the resources that match, kind by kind, while the others are noted."""
+    def _matches(self, request: RoconURI) -> Iterator[Collection[int]]:
+        """The numbers of those that match, kind by kind; then an error if some are undecided."""
         asked = with_any_name(request)
         name = NameRequest(request.name.pattern)
-        for kind in self._kinds.values():
-            uri, requested = kind.uri, asked
-            if uri.vocabulary is not asked.vocabulary:
+        undecided: List[int] = []
+        for kind, names in self._kinds.values():
+            requested = asked
+            if kind.vocabulary is not asked.vocabulary:
                 try:
-                    uri, requested = aligned(uri, asked)
-                except UnregisteredValue:       # which a comparison with anything at all survives
-                    yield [number for number, resource in kind.resources.items()
+                    kind, requested = aligned(kind, asked)
+                except UnregisteredValue:       # is_compatible accepts it beside four stars
+                    yield [number for number, resource in names.resources.items()
                            if is_compatible(resource, request)]
                     continue
-            if not is_compatible(uri, requested):
+            if not is_compatible(kind, requested):
                 continue
             if name.pattern.is_any:
-                yield kind.resources
+                yield names.resources
             else:
-                numbers, unknown = kind.names.numbers(name)
+                numbers, unknown = names.numbers(name)
                 undecided += unknown
                 yield numbers
-
-    def _error(self, request: RoconURI, undecided: List[int]) -> Optional[PatternTooComplex]:
-        if not undecided:
-            return None
-        name = request.name.string
-        error = PatternTooComplex(
-            'name %s takes too much work to compare with the patterns of %d resources'
-            % (quoted(name), len(undecided)), str(request), 'name', name)
-        error.undecided = [self._resources[number] for number in sorted(undecided)]
-        return error
+        if undecided:
+            text = request.name.string
+            error = PatternTooComplex(
+                'name %s takes too much work to compare with the patterns of %d resources'
+                % (quoted(text), len(undecided)), str(request), 'name', text)
+            error.undecided = [self._resources[number] for number in sorted(undecided)]
+            raise error
 
     def __getitem__(self, uri: Resource) -> Any:
         return self._payloads.get(self._numbers[parse(uri)])
@@ -202,13 +186,11 @@ class ResourceIndex(Resources):
         uri = parse(uri)
         number = self._numbers.pop(uri)
         self._payloads.pop(number, None)
-        del self._resources[number]
-        kind = self._kinds.get(_kind_key(uri))
-        if kind is None or number not in kind.resources:    # an equal one, of another vocabulary
-            kind = next(kind for kind in self._kinds.values() if number in kind.resources)
-        kind.names.discard(number, kind.resources.pop(number))
-        if not kind.resources:
-            del self._kinds[_kind_key(kind.uri)]
+        key = _kind_key(self._resources.pop(number))    # uri may be of another vocabulary
+        _, names = self._kinds[key]
+        names.discard(number)
+        if not names.resources:
+            del self._kinds[key]
 
     def popitem(self) -> Tuple[RoconURI, Any]:
         """
@@ -237,21 +219,6 @@ class ResourceIndex(Resources):
 def _kind_key(uri: RoconURI) -> KindKey:
     return (uri.hardware_platform, uri.application_framework, uri.operating_system,
             uri.concert_name, uri.vocabulary)
-
-
-class _Kind:
-    """
-    The resources with the same fields but the name, and the same concert.
-
-    :param RoconURI uri: one of them
-    """
-
-    __slots__ = ('uri', 'resources', 'names')
-
-    def __init__(self, uri: RoconURI) -> None:
-        self.uri = with_any_name(uri)       # all that are of this kind
-        self.resources: Dict[int, RoconURI] = {}
-        self.names = NameIndex(self.resources)
 
 
 def _with_error_last(found: List[RoconURI],
