@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import threading
 import traceback
@@ -15,6 +16,10 @@ settings.register_profile(      # where it matters that a test fails, and not of
     'no_shrinking', deadline=None, report_multiple_bugs=False,
     phases=[Phase.explicit, Phase.generate])
 settings.load_profile('rocon_uri')
+
+# Where a shell runs the tests in the background it has SIGINT ignored, and what they start would
+# inherit that: a signal to a process that has no handler yet would be lost.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 _unhandled: List[str] = []      # exceptions that ended a thread, or were raised in a __del__
 
