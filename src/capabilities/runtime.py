@@ -10,14 +10,15 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import TYPE_CHECKING, Callable, Dict, List, Optional, TypeVar
+from collections import deque
+from typing import TYPE_CHECKING, Callable, Deque, Dict, List, Optional, TypeVar
 
 from capabilities.actions import ENDS, Action, Do, RefusedRequest, StartResult
 from capabilities.catalogue import Catalogue
 from capabilities.graph import Graph
 from capabilities.instances import CapabilityInstance
 from capabilities.launch_manager import LaunchManager, _special_nodelet_manager_capability
-from capabilities.planning.plan import RunningProvider, StartPlan, error_text
+from capabilities.planning.plan import StartPlan, error_text
 from capabilities.starts import Starts, running_providers
 from capabilities.status import status_entries
 from rocon_uri.sources.wording import quoted
@@ -30,8 +31,8 @@ __all__ = ['Runtime']
 
 T = TypeVar('T')
 
-_LOSSES = 3                 # this many losses of the nodelet manager
-_LOSSES_SECONDS = 60.0      # within this time are too many
+_LOSSES = 3                 # with that loss of the nodelet manager
+_LOSSES_SECONDS = 60.0      # within this time the server ends
 
 
 class Runtime:
@@ -58,7 +59,7 @@ class Runtime:
         self._has_manager = threading.Event()
         self._by_pid: Dict[int, CapabilityInstance] = {}
         self._gone: Dict[int, threading.Event] = {}
-        self._losses: List[float] = []      # of the nodelet manager, by the monotonic clock
+        self._losses: Deque[float] = deque(maxlen=_LOSSES)      # by the monotonic clock
         self._reloads = 0                   # that were begun
         self._newest_reload = 0             # that was finished
 
@@ -72,6 +73,7 @@ class Runtime:
     def manager(self, manager: LaunchManager) -> None:
         with self.lock:
             self._manager = manager
+            self._starts.has_nodelet_manager = manager.has_nodelet_manager
             self._tell_of_manager('launched')
         self._has_manager.set()
 
@@ -86,7 +88,7 @@ class Runtime:
         """What a start would do (`StartPlan`); starts nothing."""
         with self.lock:
             running = running_providers(self.graph)
-        return self._plan(capability, preferred, running, may_read=True)
+        return self._starts.plan(self.catalogue, capability, preferred, running, may_read=True)
 
     def start(self, capability: str, preferred: str) -> StartResult:
         """Start a capability for as long as nobody stops it."""
@@ -197,9 +199,10 @@ class Runtime:
             self._tell_of_manager('terminated', pid)
             if self.graph.ends:
                 return
-            now = time.monotonic()
-            self._losses = [loss for loss in self._losses if now - loss < _LOSSES_SECONDS] + [now]
-            if self._ends_without_nodelet_manager or len(self._losses) >= _LOSSES:
+            self._losses.append(time.monotonic())
+            are_too_many = (len(self._losses) == _LOSSES
+                            and self._losses[-1] - self._losses[0] < _LOSSES_SECONDS)
+            if self._ends_without_nodelet_manager or are_too_many:
                 self._audience.must_end(1)
                 return
             try:
@@ -240,8 +243,8 @@ class Runtime:
             self.plan(capability, preferred)    # reads the launch files that changed
             with self.lock:
                 self.check_running()
-                plan = self._plan(capability, preferred, running_providers(self.graph),
-                                  may_read=False)
+                plan = self._starts.plan(self.catalogue, capability, preferred,
+                                         running_providers(self.graph), may_read=False)
                 if plan.unread:     # there was a reload or a stop meanwhile
                     continue
                 if plan.faults:
@@ -249,12 +252,6 @@ class Runtime:
                 result = do(plan)
                 self._carry_out()
                 return result
-
-    def _plan(self, capability: str, preferred: str, running: List[RunningProvider],
-              may_read: bool) -> StartPlan:
-        has_nodelet_manager = self._manager is not None and self._manager.has_nodelet_manager
-        return self._starts.plan(self.catalogue, capability, preferred, running,
-                                 has_nodelet_manager, may_read)
 
     def _wait_for(self, do: Callable[[], List[CapabilityInstance]]) -> None:
         """Do something that stops instances, and wait until they are gone. Takes the lock."""

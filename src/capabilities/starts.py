@@ -30,11 +30,12 @@ class Starts:
     """Plans starts, and remembers the launch files that it has read."""
 
     def __init__(self) -> None:
+        #: bool: is there a nodelet manager that providers can use?
+        self.has_nodelet_manager = False
         self._launch_files = LaunchFiles()
 
     def plan(self, catalogue: Catalogue, capability: str, preferred: str,
-             running: List[RunningProvider], has_nodelet_manager: bool,
-             may_read: bool) -> StartPlan:
+             running: List[RunningProvider], may_read: bool) -> StartPlan:
         """
         What a start of a capability would do.
 
@@ -46,7 +47,7 @@ class Starts:
         launch_files = self._launch_files
         return plan_start(catalogue.spec_index, capability, preferred, catalogue.defaults, running,
                           launch_files if may_read else launch_files.remembered(),
-                          has_nodelet_manager)
+                          self.has_nodelet_manager)
 
     def instances(self, catalogue: Catalogue, plan: StartPlan) -> List[CapabilityInstance]:
         """
