@@ -71,8 +71,8 @@ def master(tmp_path_factory):
 @pytest.fixture(scope='session')
 def _robot(tmp_path_factory):
     """The robot of all tests of a process, since that can be one node only."""
-    pytest.importorskip('rospy')
-    pytest.importorskip('capabilities.msg', reason='the messages are not built')
+    from built import built
+    built('capabilities.msg')
     from robot import Robot
     with Robot(tmp_path_factory.mktemp('robot')) as robot:
         yield robot

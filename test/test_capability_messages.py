@@ -6,9 +6,10 @@ import subprocess
 import sys
 
 import pytest
+from built import built
 
-msg = pytest.importorskip('capabilities.msg', reason='the messages have not been built')
-srv = pytest.importorskip('capabilities.srv', reason='the services have not been built')
+msg = built('capabilities.msg')
+srv = built('capabilities.srv')
 
 MESSAGES = [
     ('Capability', '05f9dd41875315c324efdf915b0e33a9'),

@@ -9,11 +9,11 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from built import built
 from robot import eventually
 from sources import ROOT, SOURCE
 
-pytest.importorskip('rospy')
-pytest.importorskip('capabilities.msg', reason='the messages are not built')
+built('capabilities.msg')
 
 import rospy    # noqa: E402
 from capabilities.client import (  # noqa: E402

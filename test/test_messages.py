@@ -4,6 +4,7 @@ from __future__ import annotations
 from io import BytesIO
 
 import pytest
+from built import built
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -12,7 +13,7 @@ from rocon_uri.messages import from_msg, to_msg
 from rocon_uri.uri import RoconURI, parse
 from rocon_uri.vocabulary import current
 
-msg = pytest.importorskip('rocon_uri.msg', reason='the message has not been built')
+msg = built('rocon_uri.msg')
 
 
 def alternatives(field):

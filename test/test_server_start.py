@@ -3,6 +3,7 @@ import os
 import signal
 
 import pytest
+from built import built
 
 from capabilities.instances import USER_SERVICE_REASON
 from robot import INTERFACE, PROVIDER, eventually, sleeper
@@ -62,7 +63,7 @@ def test_a_bad_configuration_ends_it(robot, parameters, lines):
 
 
 def test_it_says_that_package_paths_are_missing(monkeypatch):
-    pytest.importorskip('capabilities.msg')
+    built('capabilities.msg')
     from capabilities import server
     monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)
     handlers = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
@@ -75,7 +76,7 @@ def test_it_says_that_package_paths_are_missing(monkeypatch):
 
 
 def test_its_command_line():
-    pytest.importorskip('capabilities.msg')
+    built('capabilities.msg')
     from capabilities.server import create_parser
     assert create_parser().parse_args(['a:b', '-s']).screen
     with pytest.raises(SystemExit):

@@ -13,14 +13,15 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from built import unless_built
 
 ROOT = Path(__file__).resolve().parents[2]
 USER = Path(__file__).resolve().parent / 'workspace' / 'src' / 'capability_user'
 PYTHON = '-DPYTHON_EXECUTABLE=/usr/bin/python3'
 
-pytestmark = pytest.mark.skipif(
-    not all(map(shutil.which, ['catkin_make', 'catkin_make_isolated', 'roslaunch', 'rosmsg'])),
-    reason='no ROS environment with catkin, roslaunch and rosmsg')
+pytestmark = unless_built(
+    all(map(shutil.which, ['catkin_make', 'catkin_make_isolated', 'roslaunch', 'rosmsg'])),
+    'no ROS environment with catkin, roslaunch and rosmsg')
 
 #: in both orders, from both packages
 IMPORTS = ['capabilities.msg, capabilities.srv, capabilities.discovery, rocon_uri.msg',

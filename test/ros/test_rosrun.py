@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from built import unless_built
 
 EXAMPLES = Path(__file__).resolve().parents[2] / 'examples'
 
@@ -19,8 +20,7 @@ def is_in_ros_package_path() -> bool:
                                stderr=subprocess.DEVNULL).returncode == 0)
 
 
-pytestmark = pytest.mark.skipif(not is_in_ros_package_path(),
-                                reason='no ROS environment with rocon_uri in it')
+pytestmark = unless_built(is_in_ros_package_path(), 'no ROS environment with rocon_uri in it')
 
 
 def rosrun(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:

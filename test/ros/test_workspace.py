@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from built import unless_built
 
 ROOT = Path(__file__).resolve().parents[2]
 TIDYBOT = Path(__file__).resolve().parent / 'workspace' / 'src' / 'tidybot'
@@ -20,8 +21,8 @@ def is_in_ros_package_path() -> bool:
                                stderr=subprocess.DEVNULL).returncode == 0)
 
 
-pytestmark = pytest.mark.skipif(not is_in_ros_package_path(),
-                                reason='no ROS environment with rocon_uri, catkin and rostest')
+pytestmark = unless_built(is_in_ros_package_path(),
+                          'no ROS environment with rocon_uri, catkin and rostest')
 
 
 def run(folder: Path, *command: str) -> subprocess.CompletedProcess[str]:
