@@ -12,6 +12,7 @@ from catkin_pkg.packages import find_packages
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from capabilities import discovery
 from capabilities.discovery import (
     DuplicateNameException, InterfaceNameNotFoundException, PackageError, SpecIndex,
     package_index_from_package_path, spec_file_index_from_package_index,
@@ -19,7 +20,9 @@ from capabilities.discovery import (
 from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import CapabilityInterface, InvalidInterface
 from capabilities.specs.provider import CapabilityProvider, InvalidProvider
-from capabilities.specs.semantic_interface import SemanticCapabilityInterface
+from capabilities.specs.semantic_interface import (
+    InvalidSemanticInterface, SemanticCapabilityInterface)
+from rocon_uri.sources.packages import find_packages as packages_of_ours
 
 WORKSPACE = str(Path(__file__).parent / 'workspace')
 CORPUS = os.environ.get('ROCON_URI_CORPUS', '')
@@ -213,6 +216,11 @@ class TestPackageIndex:
         assert capfd.readouterr() == ('', '')
 
 
+def test_the_errors_of_specs_have_a_second_place() -> None:
+    for error in InvalidInterface, InvalidSemanticInterface, InvalidProvider:
+        assert getattr(discovery, error.__name__) is error
+
+
 class TestSpecFileIndex:
 
     def test_paths_by_package_and_export_in_order(self, tmp_path: Path) -> None:
@@ -221,6 +229,7 @@ class TestSpecFileIndex:
         folder = add_package(tmp_path / 'a_package', 'a_package', exports)
         packages = package_index_from_package_path([str(tmp_path)])
         assert spec_file_index_from_package_index(packages) == {'a_package': {
+            'package': packages['a_package'],
             INTERFACE: [str(folder / 'interfaces/B.yaml'), str(folder / 'interfaces/A.yaml')],
             SEMANTIC: [],
             PROVIDER: [str(folder / 'providers/z.yaml')]}}
@@ -230,8 +239,15 @@ class TestSpecFileIndex:
         package.exports = [Export(INTERFACE, '\v A.yaml '), Export(INTERFACE)]
         folder = os.path.abspath(os.path.join('src', 'a_package'))
         assert spec_file_index_from_package_index({'a_package': package}) == {'a_package': {
+            'package': package,
             INTERFACE: [os.path.join(folder, 'A.yaml'), os.path.join(folder, '')],
             SEMANTIC: [], PROVIDER: []}}
+
+    def test_the_package_is_that_which_was_given(self) -> None:
+        for packages in (package_index_from_package_path([WORKSPACE]),
+                         packages_of_ours([WORKSPACE])):
+            files = spec_file_index_from_package_index(packages)
+            assert files['home_navigation']['package'] is packages['home_navigation']
 
     def test_packages_without_specs_are_left_out(self) -> None:
         packages = package_index_from_package_path([WORKSPACE])

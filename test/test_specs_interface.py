@@ -99,6 +99,29 @@ def test_adding_dynamic_parameters():
     assert interface.dynamic_parameters == ['gain']
 
 
+@pytest.mark.parametrize('kind', KINDS)
+def test_what_is_no_element_or_no_text_is_a_type_error(kind):
+    interface = Interface()
+    add = getattr(interface, 'add_' + kind)
+    for element in ('a/B', None, {'type': 'a/B'}):
+        with pytest.raises(TypeError, match="%s 'a' is .*, expected an InterfaceElement" % kind):
+            add('a', element)
+    for name in (3, None, b'a', ['a']):
+        with pytest.raises(TypeError, match='the name of a %s is .*, expected text' % kind):
+            add(name, InterfaceElement('a', kind))
+        with pytest.raises(TypeError, match='dynamic_parameter is .*, expected text'):
+            interface.add_dynamic_parameter(name)
+    assert list(interface.elements()) == interface.dynamic_parameters == []
+
+
+@pytest.mark.parametrize('nothing', ['[]', '{}', '', 'null'])
+def test_an_empty_section_is_accepted(nothing):
+    interface = capability_interface_from_string(
+        'name: A\nspec_version: 1\nspec_type: interface\ninterface:\n'
+        + ''.join('  %ss: %s\n' % (kind, nothing) for kind in (*KINDS, 'dynamic_parameter')))
+    assert list(interface.elements()) == interface.dynamic_parameters == []
+
+
 def test_what_is_returned_is_a_copy(camera):
     for section in ('topics', 'services', 'actions', 'parameters'):
         for prefix in ('', 'provided_', 'required_'):

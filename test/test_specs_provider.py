@@ -8,6 +8,7 @@ from capabilities.specs.common import SpecName
 from capabilities.specs.provider import (
     CapabilityProvider, DependsOnRelationship, capability_provider_from_file_path,
     capability_provider_from_string)
+from capabilities.specs.remappings import RemapCollection
 
 NAVIGATION = str(Path(__file__).parent / 'unit/specs/providers/navigation_nav_stack.yaml')
 HEAD = 'name: a\nspec_version: 1\nspec_type: provider\nimplements: a_package/A\n'
@@ -47,6 +48,7 @@ def test_a_dependency_is_called_by_all_its_names():
 
 @pytest.mark.parametrize('form, expected', [
     ('', {}),
+    ('null', {}),
     ('a/B', {'a/B': None}),
     ('[]', {}),
     ('[c/D, a/B]', {'c/D': None, 'a/B': None}),
@@ -113,6 +115,23 @@ def test_a_name_has_one_new_name():
     assert provider.remappings == {'a': 'b'}
     assert provider.remappings_by_type == {
         'topics': {'a': 'b'}, 'services': {'a': 'b'}, 'actions': {}, 'parameters': {}}
+
+
+def test_a_collection_of_remappings_of_its_own():
+    collection = RemapCollection()
+    collection.add_remappings_by_dict({'topics': {'a': 'b'}, 'services': {}, 'actions': {'c': 'd'}})
+    collection.add_remapping('topics', 'e', 'f')
+    assert collection.remappings == {'a': 'b', 'c': 'd', 'e': 'f'}
+    assert collection.remappings_by_type == {
+        'topics': {'a': 'b', 'e': 'f'}, 'services': {}, 'actions': {'c': 'd'}, 'parameters': {}}
+    with pytest.raises(ValueError, match="'topic' is not a kind of remapping"):
+        collection.add_remappings_by_dict({'topic': {}})
+    with pytest.raises(RuntimeError, match="'a' is remapped to 'b' and to 'c'"):
+        collection.add_remappings_by_dict({'services': {'a': 'c'}})
+    provider = CapabilityProvider('a', 1, 'b/C')
+    assert isinstance(provider, RemapCollection)
+    provider.add_remappings_by_dict({'topics': {'a': 'b'}})
+    assert provider.remappings == {'a': 'b'}
 
 
 def test_what_is_returned_is_a_copy(navigation):

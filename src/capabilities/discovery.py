@@ -21,21 +21,23 @@ indexed. A path that leads out of its package is followed.
 from __future__ import annotations
 
 import logging
-from typing import Callable, Dict, Iterable, List, Mapping, Optional, Tuple, TypeVar, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, TypeVar, Union
 
 from catkin_pkg.package import InvalidPackage, parse_package_string
 from catkin_pkg.package import Package as CatkinPackage
 
 from capabilities.spec_index import (
     DuplicateNameException, InterfaceNameNotFoundException, SpecIndex)
-from capabilities.specs.interface import capability_interface_from_file_path
-from capabilities.specs.provider import capability_provider_from_file_path
-from capabilities.specs.semantic_interface import semantic_capability_interface_from_file_path
+from capabilities.specs.interface import InvalidInterface, capability_interface_from_file_path
+from capabilities.specs.provider import InvalidProvider, capability_provider_from_file_path
+from capabilities.specs.semantic_interface import (
+    InvalidSemanticInterface, semantic_capability_interface_from_file_path)
 from rocon_uri.sources.located import Fault, LocatedError
 from rocon_uri.sources.packages import (
     Package, PackageError, as_package, find_packages, read_manifest)
 
-__all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'PackageError', 'SpecIndex',
+__all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'InvalidInterface',
+           'InvalidProvider', 'InvalidSemanticInterface', 'PackageError', 'SpecIndex',
            'catkin_package', 'package_index_from_package_path',
            'spec_file_index_from_package_index', 'spec_index_from_spec_file_index']
 
@@ -45,7 +47,7 @@ EXPORTS = ('capability_interface', 'semantic_capability_interface', 'capability_
 _logger = logging.getLogger('capabilities.discovery')
 
 Spec = TypeVar('Spec')
-SpecFileIndex = Dict[str, Dict[str, List[str]]]
+SpecFileIndex = Dict[str, Dict[str, Any]]   # lists of paths, and a package
 
 
 def package_index_from_package_path(
@@ -113,7 +115,8 @@ def spec_file_index_from_package_index(
         `rocon_uri.sources.packages.find_packages` returns
     :returns: dict from the name of each package that exports any to a dict with the keys
         ``'capability_interface'``, ``'semantic_capability_interface'`` and
-        ``'capability_provider'``, and lists of paths (str, absolute), in the order of the exports
+        ``'capability_provider'``, whose values are lists of paths (str, absolute) in the order of
+        the exports, and ``'package'``, the package itself, as it was given
 
     >>> spec_file_index_from_package_index({})
     {}
@@ -123,7 +126,7 @@ def spec_file_index_from_package_index(
         package = as_package(given)
         spec_files = {tag: package.files(tag) for tag in EXPORTS}
         if any(spec_files.values()):
-            index[name] = spec_files
+            index[name] = {'package': given, **spec_files}
     return index
 
 

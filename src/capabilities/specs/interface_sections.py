@@ -119,6 +119,7 @@ class Interface:
         :raises ValueError: if the grouping is another, or the name is that of a grouping and there
             is none: a file cannot express that
         :raises RuntimeError: if the interface has a topic of that name
+        :raises TypeError: if the name is not a str, or what it is not an InterfaceElement
         """
         self.add_element('topics', topic_name, interface_element, grouping)
 
@@ -138,7 +139,14 @@ class Interface:
         self.add_element('parameters', parameter_name, interface_element, grouping)
 
     def add_dynamic_parameter(self, dynamic_parameter_name: str) -> None:
-        """Add a dynamic parameter (str, its name); RuntimeError if the interface has it already."""
+        """
+        Add a dynamic parameter.
+
+        :param str dynamic_parameter_name: its name
+        :raises RuntimeError: if the interface has a dynamic parameter of that name
+        :raises TypeError: if the name is not a str
+        """
+        _check_name('dynamic_parameter', dynamic_parameter_name)
         if dynamic_parameter_name in self._dynamic_parameters:
             raise RuntimeError('dynamic_parameter %s is already in the interface'
                                % shown(dynamic_parameter_name))
@@ -152,6 +160,10 @@ class Interface:
         :param str section: ``'topics'``, ``'services'``, ``'actions'`` or ``'parameters'``
         :raises KeyError: if it is another
         """
+        _check_name(SECTIONS[section], name)
+        if not isinstance(element, InterfaceElement):
+            raise TypeError('%s %s is %s, expected an InterfaceElement' % (
+                SECTIONS[section], shown(name), shown(element)))
         if grouping is None and name in GROUPINGS:
             raise ValueError('a name cannot be %s outside of a grouping' % quoted(name))
         if grouping is not None and grouping not in GROUPINGS:
@@ -171,3 +183,9 @@ class Interface:
         for section, elements in self._elements.items():
             for name, (element, grouping) in elements.items():
                 yield section, name, element, grouping
+
+
+def _check_name(kind: str, name: object) -> None:
+    """Refuse a name that a caller made of something else."""
+    if not isinstance(name, str):
+        raise TypeError('the name of a %s is %s, expected text' % (kind, shown(name)))

@@ -16,27 +16,24 @@ from capabilities.specs._reading import SpecReading
 from capabilities.specs.common import CapabilitySpec
 from rocon_uri.sources.wording import shown
 
-__all__ = ['REMAPPING_KINDS', 'RemappingSpec', 'read_remappings']
+__all__ = ['REMAPPING_KINDS', 'RemapCollection', 'RemappingSpec', 'read_remappings']
 
 REMAPPING_KINDS = ('topics', 'services', 'actions', 'parameters')
 
 
-class RemappingSpec(CapabilitySpec):
+class RemapCollection:
     """
-    A spec with remappings: a provider, or a semantic interface.
+    Remappings by kind. A name has only one new name, even if it is remapped in several kinds.
 
-    A name has only one new name, even if it is remapped in several kinds.
+    >>> collection = RemapCollection()
+    >>> collection.add_remappings_by_dict({'topics': {'scan': 'laser/scan'}})
+    >>> collection.remappings
+    {'scan': 'laser/scan'}
     """
 
-    def __init__(self, name: str, spec_version: int, description: Optional[str],
-                 remappings: Optional[Mapping[str, Mapping[str, str]]]) -> None:
-        super().__init__(name, spec_version, description)
+    def __init__(self) -> None:
         self._remappings: Dict[str, str] = {}
         self._remappings_by_type: Dict[str, Dict[str, str]] = {kind: {} for kind in REMAPPING_KINDS}
-        for kind, new_names in (remappings or {}).items():
-            _check_kind(kind)       # there may be no names
-            for old_name, new_name in new_names.items():
-                self.add_remapping(kind, old_name, new_name)
 
     @property
     def remappings(self) -> Dict[str, str]:
@@ -63,12 +60,33 @@ class RemappingSpec(CapabilitySpec):
             raise RuntimeError(_two_names(name, self._remappings[name], new_name))
         self._remappings_by_type[kind][name] = new_name
 
+    def add_remappings_by_dict(self, remappings: Mapping[str, Mapping[str, str]]) -> None:
+        """
+        Add remappings of several kinds. Errors are those of `add_remapping`.
+
+        :param dict remappings: new names by name, by kind
+        """
+        for kind, new_names in remappings.items():
+            _check_kind(kind)       # there may be no names
+            for name, new_name in new_names.items():
+                self.add_remapping(kind, name, new_name)
+
     def _remappings_to_dict(self) -> Dict[str, object]:
         """The part of ``to_dict`` for the remappings; empty if there are none."""
         remappings = {
             kind: {str(name): str(new_name) for name, new_name in new_names.items()}
             for kind, new_names in self._remappings_by_type.items() if new_names}
         return {'remappings': remappings} if remappings else {}
+
+
+class RemappingSpec(CapabilitySpec, RemapCollection):
+    """A spec with remappings: a provider, or a semantic interface."""
+
+    def __init__(self, name: str, spec_version: int, description: Optional[str],
+                 remappings: Optional[Mapping[str, Mapping[str, str]]]) -> None:
+        CapabilitySpec.__init__(self, name, spec_version, description)
+        RemapCollection.__init__(self)
+        self.add_remappings_by_dict(remappings or {})
 
 
 def _check_kind(kind: str) -> None:
