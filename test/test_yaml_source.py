@@ -188,7 +188,7 @@ def test_what_is_merged_is_where_it_was_written():
     source = load('a: &a {x: 1, y: 1}\nb:\n  <<: *a\n  y: 2\n', 'f')
     assert source['b'].key_position('x') == (1, 8)
     assert source['b'].key_position('y') == (4, 3)
-    assert source['b'].repeated == []
+    assert not source['b'].repeated
 
 
 @pytest.mark.usefixtures('parser')

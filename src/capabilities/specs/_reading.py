@@ -72,13 +72,13 @@ class SpecReading(Reading):
         """The name of another spec that the spec must have as the value of a key."""
         return self.spec_name(self.spec.required(key, self.keys), self.spec.value_place(key), key)
 
-    def spec_name(self, value: object, place: Place, what: str) -> SpecName:
-        """A value as the name of another spec."""
+    def spec_name(self, value: object, place: Place, what: str, key: object = None) -> SpecName:
+        """A value as the name of another spec; ``%s`` in what an error calls it is the key."""
         try:
             return SpecName(value)      # type: ignore[arg-type]
         except ValueError:
-            raise self.fault('%s is %s, expected package/name' % (what, shown(value)),
-                             place) from None
+            raise self.fault('%s is %s, expected package/name' % (
+                what.replace('%s', shown(key)), shown(value)), place) from None
 
 
 class SpecLoader(Generic[Spec]):

@@ -165,7 +165,7 @@ def _read_dependencies(reading: SpecReading, provider: CapabilityProvider) -> No
             preferred = conditions.get('provider')
             if preferred is not None:
                 preferred = reading.spec_name(preferred, conditions.value_place('provider'),
-                                              'provider of ' + conditions.title)
+                                              'provider of depends_on %s', name)
             _add_dependency(reading, provider, name, dependencies.key_place(name), preferred)
     elif given is not None:
         raise reading.spec.wrong('depends_on',

@@ -54,12 +54,10 @@ class YamlMapping(_Positioned, dict):   # type: ignore[type-arg]    # Python 3.8
 
     def __init__(self, line: int, column: int,
                  positions: Optional[Dict[object, Tuple[int, int, int, int]]] = None) -> None:
-        super().__init__()
         self._start = line, column
         self._positions = {} if positions is None else positions
-        #: What was lost to duplicate keys: a list of (key, its earlier value, position of the
-        #: duplicate), empty as a rule.
-        self.repeated: List[Tuple[object, object, Position]] = []
+        #: What was lost to duplicate keys: (key, its earlier value, position of the duplicate) each.
+        self.repeated: Sequence[Tuple[object, object, Position]] = ()
 
     def key_position(self, key: object) -> Position:
         """Where the key stands (the last one, if it is repeated); KeyError if it was not read."""

@@ -14,7 +14,7 @@ from yaml.events import (
 
 from rocon_uri.sources.wording import quoted
 from rocon_uri.sources.yaml_data import (
-    MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, end_position)
+    MAX_DEPTH, MAX_SIZE, Position, YamlError, YamlMapping, YamlSequence, end_position)
 from rocon_uri.sources.yaml_scalars import CORE, TAGGED, Scalar, plain
 
 __all__ = ['Reader', 'Value']
@@ -75,6 +75,7 @@ class Reader:
         positions: Dict[object, Tuple[int, int, int, int]] = {}
         mapping = YamlMapping(mark.line, mark.column, positions)
         merged: List[YamlMapping] = []
+        repeated: List[Tuple[object, object, Position]] = []
         others = 0
         while True:
             event = next_event()
@@ -97,9 +98,11 @@ class Reader:
                 self._check_other_keys(others, event)
             mark, value_mark = event.start_mark, value_event.start_mark
             if key in mapping:
-                mapping.repeated.append((key, mapping[key], (mark.line + 1, mark.column + 1)))
+                repeated.append((key, mapping[key], (mark.line + 1, mark.column + 1)))
             mapping[key] = value
             positions[key] = mark.line, mark.column, value_mark.line, value_mark.column
+        if repeated:
+            mapping.repeated = repeated
         if merged:
             others += sum(key.__class__ is not str for source in merged for key in source)
             self._check_other_keys(others, start)

@@ -51,6 +51,7 @@ from rocon_uri.sources.yaml_data import (
 __all__ = ['MAX_DEPTH', 'MAX_SIZE', 'YamlError', 'YamlMapping', 'YamlSequence', 'load',
            'load_file', 'read_file']
 
+_CHUNK = 65536      # bytes that are read at a time of a file that is larger than it says
 _MAX_TAG_DIRECTIVES = 100   # libyaml compares each one with all earlier ones
 
 _tag_directives = re.compile('(?:^|[\r\n\x85\u2028\u2029])%TAG').findall
@@ -101,20 +102,25 @@ def read_file(path: Union[str, PathLike[str]]) -> bytes:
     >>> read_file('test/unit/specs/interfaces/RGBCamera.yaml')[:9]
     b'%YAML 1.1'
     """
-    def opener(name: str, flags: int) -> int:
-        # Without O_NONBLOCK, opening a FIFO waits for somebody to write to it.
-        return os.open(name, flags | os.O_NONBLOCK | os.O_NOCTTY)
-
     try:
-        with open(path, 'rb', opener=opener) as file:
-            status = os.fstat(file.fileno())
+        # Without O_NONBLOCK, opening a FIFO waits for somebody to write to it.
+        descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOCTTY)
+        try:
+            status = os.fstat(descriptor)
             if not stat.S_ISREG(status.st_mode):
-                raise OSError(errno.EINVAL, 'Not a regular file', str(path))
+                raise OSError(errno.EINVAL, 'Not a regular file')
             # A read allocates what it is asked for, so ask for the size of the file, not for 1 MiB.
-            content = file.read(min(status.st_size, MAX_SIZE) + 1)
-            if status.st_size < len(content) <= MAX_SIZE:   # it grows, or is one of /proc
-                content += file.read(MAX_SIZE + 1 - len(content))
+            content = more = os.read(descriptor, min(status.st_size, MAX_SIZE) + 1)
+            while more and len(content) <= MAX_SIZE:    # it may grow, or be one of /proc
+                more = os.read(descriptor, min(MAX_SIZE + 1 - len(content), _CHUNK))
+                content += more
             return content
+        finally:
+            os.close(descriptor)
+    except OSError as error:
+        if error.filename is None:      # that of a read has none
+            error.filename = str(path)
+        raise
     except ValueError as error:     # a NUL or a lone surrogate in the path
         raise OSError(errno.EINVAL, str(error), str(path)) from error
 
