@@ -22,6 +22,7 @@ from capabilities.specs.interface import CapabilityInterface, InvalidInterface
 from capabilities.specs.provider import CapabilityProvider, InvalidProvider
 from capabilities.specs.semantic_interface import (
     InvalidSemanticInterface, SemanticCapabilityInterface)
+from rocon_uri.lint import check_packages
 from rocon_uri.sources.packages import find_packages as packages_of_ours
 
 WORKSPACE = str(Path(__file__).parent / 'workspace')
@@ -219,6 +220,21 @@ class TestPackageIndex:
 def test_the_errors_of_specs_have_a_second_place() -> None:
     for error in InvalidInterface, InvalidSemanticInterface, InvalidProvider:
         assert getattr(discovery, error.__name__) is error
+
+
+@pytest.mark.skipif(not os.path.exists('/proc/self/mem'), reason='there is no /proc')
+def test_a_read_that_fails_says_the_name_of_the_file(tmp_path: Path) -> None:
+    folder = add_package(tmp_path / 'ours', 'ours', [
+        (INTERFACE, 'A.yaml'), (INTERFACE, 'B.yaml'), ('rocon_app', 'a.rapp')])
+    (folder / 'B.yaml').write_text(SPEC[INTERFACE] % 'B')
+    for name in 'A.yaml', 'a.rapp':
+        (folder / name).symlink_to('/proc/self/mem')     # as a bad disk, it fails when it is read
+    index, [error] = index_of(tmp_path)
+    assert index.names == ['ours/B']
+    assert isinstance(error, OSError) and error.filename == str(folder / 'A.yaml')
+    assert [str(finding) for finding in check_packages([str(tmp_path)])] == [
+        '%s: error: cannot be read: Input/output error' % (folder / name)
+        for name in ('A.yaml', 'a.rapp')]
 
 
 class TestSpecFileIndex:

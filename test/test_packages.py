@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 from pathlib import Path
 from typing import List
 
@@ -9,6 +10,8 @@ import pytest
 from capabilities.discovery import package_index_from_package_path
 from made_packages import make_package
 
+from rocon_uri.lint import check_packages
+from rocon_uri.sources import packages
 from rocon_uri.sources.packages import (
     PackageError, as_package, find_packages, package_folders, package_from_manifest)
 
@@ -95,6 +98,81 @@ def test_the_folder_with_nosubdirs_counts_and_those_below_do_not(tmp_path: Path)
     make_package(tmp_path / 'stack', 'theirs')
     (tmp_path / 'stack' / 'rospack_nosubdirs').touch()
     assert list(package_folders(str(tmp_path))) == [str(folder)]
+
+
+def test_a_folder_that_is_removed_while_it_is_walked(tmp_path: Path) -> None:
+    first, second = make_package(tmp_path, 'a'), make_package(tmp_path, 'b')
+    make_package(tmp_path, 'c')
+    errors: List[PackageError] = []
+    walk = package_folders(str(tmp_path), errors)
+    assert next(walk) == str(first)
+    shutil.rmtree(str(second))
+    assert list(walk) == [str(tmp_path / 'c')]
+    assert errors == []
+
+
+def test_a_package_that_is_removed_while_it_is_read(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    make_package(tmp_path, 'a')
+    gone = make_package(tmp_path, 'b') / 'package.xml'
+    monkeypatch.setattr(packages, 'package_folders', lambda path, errors: [
+        *package_folders(path, errors), gone.unlink()][:-1])
+    errors: List[PackageError] = []
+    assert list(find_packages([str(tmp_path)], errors)) == ['a']
+    assert list(map(str, errors)) == ['%s: No such file or directory' % gone]
+
+
+def test_a_folder_that_cannot_be_read_is_a_fault(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    make_package(tmp_path, 'a')
+    (tmp_path / 'locked').mkdir()
+
+    def scandir(path: str) -> object:
+        if path == str(tmp_path / 'locked'):
+            raise PermissionError(13, 'Permission denied', path)
+        return real_scandir(path)
+
+    real_scandir = os.scandir
+    monkeypatch.setattr(os, 'scandir', scandir)
+    errors: List[PackageError] = []
+    assert list(find_packages([str(tmp_path)], errors)) == ['a']
+    assert list(map(str, errors)) == [
+        '%s: folder cannot be read: Permission denied' % (tmp_path / 'locked')]
+    assert list(find_packages([str(tmp_path)])) == ['a']
+    [finding] = check_packages([str(tmp_path / 'locked')])
+    assert str(finding).endswith('locked: error: folder cannot be read: Permission denied')
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason='root reads everything')
+def test_a_folder_that_its_user_may_not_read_is_a_fault(tmp_path: Path) -> None:
+    tmp_path.chmod(0)
+    errors: List[PackageError] = []
+    try:
+        assert find_packages([str(tmp_path)], errors) == {}
+    finally:
+        tmp_path.chmod(0o755)
+    assert list(map(str, errors)) == ['%s: folder cannot be read: Permission denied' % tmp_path]
+
+
+def test_a_manifest_that_catkin_refuses_exports_all_the_same(tmp_path: Path) -> None:
+    manifest = make_package(tmp_path, 'ours', [('rocon_app', 'a.rapp')]) / 'package.xml'
+    text = manifest.read_text()
+    assert '<maintainer email="' in text
+    manifest.write_text(text.replace('<maintainer email="', '<maintainer email="at home '))
+    faults: List[PackageError] = []
+    assert package_index_from_package_path([str(tmp_path)], faults) == {}
+    assert [fault.file_name for fault in faults] == [str(manifest)]
+    assert find_packages([str(tmp_path)])['ours'].files('rocon_app') == [
+        str(tmp_path / 'ours' / 'a.rapp')]
+
+
+def test_hidden_folders_are_skipped(tmp_path: Path) -> None:
+    make_package(tmp_path / '.git', 'ours')
+    make_package(tmp_path / 'a' / '.b' / 'c', 'theirs')
+    make_package(tmp_path, '.hidden')
+    make_package(tmp_path / 'a.b', 'seen')
+    assert list(find_packages([str(tmp_path)])) == ['seen']
+    assert list(find_packages([str(tmp_path / '.git')])) == ['ours']      # it was asked for
 
 
 def test_a_path_that_no_folder_can_have(tmp_path: Path) -> None:

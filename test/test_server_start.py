@@ -6,6 +6,7 @@ import pytest
 from built import built
 
 from capabilities.instances import USER_SERVICE_REASON
+from made_packages import make_package
 from robot import INTERFACE, PROVIDER, eventually, sleeper
 
 WITHOUT = {'nodelet_manager': False}
@@ -121,6 +122,19 @@ def test_specs_are_filtered(robot, parameters, there, not_there):
     names = read_catalogue([str(robot.workspace)], read).spec_index.names
     assert set(there) <= set(names)
     assert not set(not_there) & set(names)
+
+
+def test_the_specs_of_a_package_that_catkin_refuses_are_there(tmp_path):
+    built('capabilities.msg')
+    from capabilities.catalogue import read_catalogue
+    from capabilities.parameters import read_parameters
+    folder = make_package(
+        tmp_path, 'ours', [('capability_interface', 'A.yaml')],
+        A_yaml='name: A\nspec_version: 1\nspec_type: interface\n')
+    manifest = (folder / 'package.xml').read_text()
+    (folder / 'package.xml').write_text(manifest.replace('somebody@example.org', 'somebody'))
+    read = read_parameters(lambda name, default: default)
+    assert read_catalogue([str(tmp_path)], read).spec_index.names == ['ours/A']
 
 
 @pytest.mark.parametrize('given', [

@@ -9,8 +9,7 @@ import logging
 from typing import Dict, Iterable, List, NamedTuple, Optional, Set, Union
 
 from capabilities.discovery import (
-    PackageError, package_index_from_package_path, spec_file_index_from_package_index,
-    spec_index_from_spec_file_index)
+    spec_file_index_from_package_index, spec_index_from_spec_file_index)
 from capabilities.parameters import InvalidConfiguration, Parameters
 from capabilities.planning.faults import Fault
 from capabilities.planning.providers import choose_provider
@@ -18,6 +17,7 @@ from capabilities.spec_index import InterfaceNameNotFoundException, SpecIndex
 from capabilities.specs.interface import CapabilityInterface
 from capabilities.specs.provider import CapabilityProvider
 from capabilities.specs.semantic_interface import SemanticCapabilityInterface
+from rocon_uri.sources.packages import PackageError, find_packages
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 Spec = Union[CapabilityInterface, SemanticCapabilityInterface, CapabilityProvider]
@@ -94,8 +94,7 @@ def load_specs(package_paths: Iterable[str], parameters: Parameters) -> SpecInde
     :returns: `SpecIndex`
     """
     package_errors: List[PackageError] = []
-    spec_files = spec_file_index_from_package_index(
-        package_index_from_package_path(package_paths, package_errors))
+    spec_files = spec_file_index_from_package_index(find_packages(package_paths, package_errors))
     for package_error in package_errors:
         _logger.warning('package left out: %s', package_error)
     left_out = {package for package in spec_files if not _passes(

@@ -21,10 +21,8 @@ indexed. A path that leads out of its package is followed.
 from __future__ import annotations
 
 import logging
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, TypeVar, Union
-
-from catkin_pkg.package import InvalidPackage, parse_package_string
-from catkin_pkg.package import Package as CatkinPackage
+from typing import (
+    TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, TypeVar, Union)
 
 from capabilities.spec_index import (
     DuplicateNameException, InterfaceNameNotFoundException, SpecIndex)
@@ -35,6 +33,9 @@ from capabilities.specs.semantic_interface import (
 from rocon_uri.sources.located import Fault, LocatedError
 from rocon_uri.sources.packages import (
     Package, PackageError, as_package, find_packages, read_manifest)
+
+if TYPE_CHECKING:
+    from catkin_pkg.package import Package as CatkinPackage
 
 __all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'InvalidInterface',
            'InvalidProvider', 'InvalidSemanticInterface', 'PackageError', 'SpecIndex',
@@ -62,7 +63,8 @@ def package_index_from_package_path(
     :param package_paths: the folders, an iterable of str, or one str. A package in an earlier one
         hides those of its name in later ones.
     :param list errors: a `PackageError` is appended to it for each package.xml that is not valid,
-        and for a second package of one name below the same folder. All are logged in any case.
+        for a second package of one name below the same folder, and for each folder that cannot be
+        read. All are logged in any case.
     :returns: dict of ``catkin_pkg.package.Package`` by name; the ``filename`` of each is absolute
 
     >>> package_index_from_package_path(['no/such/folder'])
@@ -96,6 +98,8 @@ def catkin_package(manifest: str) -> CatkinPackage:
     >>> catkin_package('test/workspace/src/home_navigation/package.xml').version
     '1.0.0'
     """
+    # Here, since it takes a third of the time in which this module and all its imports load.
+    from catkin_pkg.package import InvalidPackage, parse_package_string
     text = read_manifest(manifest)
     try:
         # Its warnings are for those who build the package.

@@ -1,7 +1,7 @@
 """
-Packages: the one walk that finds their folders, and the one reader of what they export.
+Packages: the one walk that finds their folders.
 
-A folder with a ``package.xml`` (the manifest) is a package. `find_packages` walks as
+A folder with a ``package.xml``, the manifest, is a package. `find_packages` walks as
 ``catkin_pkg.packages.find_packages`` and rospack do:
 
 - nothing is looked for below a package, a rosbuild package (``manifest.xml``) included,
@@ -9,108 +9,23 @@ A folder with a ``package.xml`` (the manifest) is a package. `find_packages` wal
 - the folders below one with a file ``rospack_nosubdirs`` are skipped, the folder itself is not,
 - hidden folders are skipped, and of ``/usr/share`` only the folders directly in it are visited.
 
-Symbolic links are followed, and a folder that several lead to is visited once. A folder that
-cannot be read has no packages.
-
-Of a manifest, the name and the elements of ``<export>`` are read. It is UTF-8 of at most 1 MiB, as
-catkin_pkg reads it whatever its XML declaration says, and declares no entities.
+Symbolic links are followed, and a folder that several lead to is visited once. A folder that exists
+and cannot be read is a fault, since packages may be in it; one of ``/usr/share`` is not.
 """
 from __future__ import annotations
 
-import codecs
 import os
-import re
-from typing import TYPE_CHECKING, Dict, Iterable, Iterator, List, NamedTuple, Optional, Union
-from xml.parsers import expat
+from typing import Dict, Iterable, Iterator, List, Optional
 
-from rocon_uri.sources.located import LocatedError
+from rocon_uri.sources.manifest import (
+    MANIFEST, Export, Package, PackageError, as_package, package_from_manifest, read_manifest)
 from rocon_uri.sources.wording import quoted, quoted_path
-from rocon_uri.sources.yaml_data import MAX_SIZE
-from rocon_uri.sources.yaml_source import read_file
-
-if TYPE_CHECKING:
-    from catkin_pkg.package import Package as CatkinPackage
 
 __all__ = ['Export', 'MANIFEST', 'Package', 'PackageError', 'as_package', 'find_packages',
            'package_folders', 'package_from_manifest', 'read_manifest']
 
-#: the name of the file that makes a folder a package
-MANIFEST = 'package.xml'
-
-_is_name = re.compile('[A-Za-z0-9][A-Za-z0-9_-]*').fullmatch    # as catkin_pkg has it
 _IGNORE_MARKERS = frozenset(['AMENT_IGNORE', 'CATKIN_IGNORE', 'COLCON_IGNORE'])
 _NOTHING_BELOW = frozenset([MANIFEST, 'manifest.xml', 'rospack_nosubdirs'])
-
-
-class PackageError(LocatedError):
-    """
-    A package that is left out: its manifest, ``file_name``, is faulty, or its name is taken.
-
-    Its attributes are those of `rocon_uri.sources.located.LocatedError`.
-
-    >>> print(PackageError('no element found', 'a_package/package.xml', 3, 1))
-    a_package/package.xml:3:1: no element found
-    """
-
-    @property
-    def msg(self) -> str:
-        """The earlier name of ``problem``."""
-        return self.problem
-
-
-class Export(NamedTuple):
-    """One element directly in the ``<export>`` of a manifest."""
-
-    #: the element's name
-    tag: str
-    #: its attributes
-    attributes: Dict[str, str]
-    #: The text in it, without white space around it: escapes and CDATA are resolved, comments left
-    #: out. An element in it is written ``<tag>``, so that no path leads to a file by accident.
-    text: str
-    #: where it begins, counted from 1, or None where that is not known
-    line: Optional[int]
-    column: Optional[int]
-
-    def file(self, attribute: str = '') -> str:
-        """
-        The file or folder that an attribute, or else the text, names; '' if it names none.
-
-        It is relative to the package, whose folder is ``${prefix}``.
-
-        >>> Export('rocon_uri', {'rules': '${prefix}/robots.yaml'}, '', 9, 5).file('rules')
-        './robots.yaml'
-        """
-        name = self.attributes.get(attribute, '') if attribute else self.text
-        return name.replace('${prefix}', '.')
-
-
-class Package(NamedTuple):
-    """What is known of a package from its manifest."""
-
-    #: its name, as the manifest says it
-    name: str
-    #: the absolute path of its folder
-    folder: str
-    #: the absolute path of its package.xml
-    manifest: str
-    #: what it exports, in the order of the manifest
-    exports: List[Export]
-
-    def files(self, tag: str, attribute: str = '') -> List[str]:
-        """
-        The paths that elements of this tag name, by an attribute (if they have it) or their text.
-
-        They are absolute and normalised, in the order of the exports. They need not exist.
-
-        >>> laser = Export('rocon_app', {}, 'rapps/scan.rapp', 9, 5)
-        >>> Package('ours', '/src/ours', '/src/ours/package.xml', [laser]).files('rocon_app')
-        ['/src/ours/rapps/scan.rapp']
-        """
-        names = [export.file(attribute) for export in self.exports if export.tag == tag]
-        # An empty text leaves a slash at the end, which says that the folder itself is meant.
-        return [os.path.normpath(os.path.join(self.folder, name)) if name
-                else os.path.join(self.folder, '') for name in names if name or not attribute]
 
 
 def find_packages(paths: Iterable[str], errors: Optional[List[PackageError]] = None,
@@ -120,8 +35,8 @@ def find_packages(paths: Iterable[str], errors: Optional[List[PackageError]] = N
 
     A package in an earlier folder hides those of its name in later ones.
 
-    :param list errors: what is wrong is appended to it: a manifest that cannot be read, and a
-        package whose name another one below the same folder has
+    :param list errors: what is wrong is appended to it: a manifest or a folder that cannot be read,
+        and a package whose name another one below the same folder has
 
     >>> find_packages(['test/workspace'])['home_navigation'].exports[0].text
     'providers/grid_navigation.yaml'
@@ -130,7 +45,7 @@ def find_packages(paths: Iterable[str], errors: Optional[List[PackageError]] = N
     packages: Dict[str, Package] = {}
     for path in filter(None, paths):    # an empty one is not the working directory
         found: Dict[str, Package] = {}
-        for folder in package_folders(path):
+        for folder in package_folders(path, errors):
             try:
                 package = package_from_manifest(os.path.join(folder, MANIFEST))
                 if package.name in found:
@@ -145,7 +60,7 @@ def find_packages(paths: Iterable[str], errors: Optional[List[PackageError]] = N
     return packages
 
 
-def package_folders(path: str) -> Iterator[str]:
+def package_folders(path: str, errors: Optional[List[PackageError]] = None) -> Iterator[str]:
     """The absolute paths of package folders, from a folder downwards, in order of their names."""
     visited = set()
     waiting = [os.path.abspath(path)]
@@ -158,7 +73,12 @@ def package_folders(path: str) -> Iterator[str]:
             visited.add((status.st_dev, status.st_ino))
             with os.scandir(folder) as entries:
                 is_folder = {entry.name: _is_folder(entry) for entry in entries}
-        except (OSError, ValueError):   # gone, unreadable, not a directory, NUL in its name
+        except (FileNotFoundError, NotADirectoryError, ValueError):     # or a NUL in it
+            continue
+        except OSError as error:
+            if errors is not None and not folder.startswith('/usr/share/'):
+                errors.append(PackageError(
+                    'folder cannot be read: %s' % (error.strerror or error), folder))
             continue
         if not _IGNORE_MARKERS.isdisjoint(is_folder):
             continue
@@ -176,122 +96,3 @@ def _is_folder(entry: os.DirEntry[str]) -> bool:
         return entry.is_dir()
     except OSError:     # a symbolic link to itself
         return False
-
-
-def read_manifest(path: str) -> str:
-    """
-    The text of a package.xml.
-
-    :raises PackageError: if it cannot be read, is too large, not UTF-8 or declares entities
-    """
-    try:
-        content = read_file(path)
-        text = content.decode('utf-8')
-    except OSError as error:
-        raise PackageError(error.strerror or str(error), path) from error
-    except UnicodeDecodeError as error:
-        raise PackageError('not a valid manifest: %s' % error, path) from error
-    if len(content) > MAX_SIZE:
-        raise PackageError('larger than 1 MiB, which is all that is read', path)
-    if '<!ENTITY' in text:  # not every expat bounds how large they become
-        raise PackageError('it declares entities, and those are not read', path)
-    return text
-
-
-def package_from_manifest(path: str) -> Package:
-    """
-    The package of one package.xml.
-
-    :raises PackageError: if it cannot be read, is not XML, or has no name
-    """
-    path = os.path.abspath(path)
-    reader = _ManifestReader(path)
-    reader.read(read_manifest(path))
-    names = [name.strip(' \n\r\t') for name in reader.names]
-    if len(names) != 1:
-        raise PackageError('The manifest must contain exactly one "name" tag', path)
-    if not _is_name(names[0]):
-        raise PackageError('Package name %s does not follow naming conventions (letters, digits, _ '
-                           'and -)' % quoted(names[0]), path)
-    return Package(names[0], os.path.dirname(path), path, reader.exports)
-
-
-class _ManifestReader:
-    """Collects the names and the exports of a manifest while expat reads it."""
-
-    def __init__(self, path: str) -> None:
-        self.path = path
-        self.names: List[str] = []
-        self.exports: List[Export] = []
-        self._depth = 0
-        self._section = ''              # the element below <package> that is read
-        self._text: List[str] = []      # of the name or the export that is read
-        self._parser = expat.ParserCreate('utf-8')
-        self._parser.buffer_text = True
-        self._parser.XmlDeclHandler = self._declaration
-        self._parser.StartElementHandler = self._start
-        self._parser.EndElementHandler = self._end
-        self._parser.CharacterDataHandler = self._text.append
-
-    def read(self, text: str) -> None:
-        """Read a whole manifest; PackageError if it is not XML."""
-        try:
-            self._parser.Parse(text, True)
-        except expat.ExpatError as error:
-            raise PackageError('not XML: ' + expat.ErrorString(error.code), self.path,
-                               error.lineno, error.offset + 1) from error
-
-    def _declaration(self, version: str, encoding: Optional[str], standalone: int) -> None:
-        try:
-            codecs.lookup(encoding or 'utf-8')
-        except (LookupError, ValueError):
-            raise PackageError('the encoding %s of its XML declaration is unknown'
-                               % quoted(str(encoding)), self.path, 1, 1) from None
-
-    def _start(self, tag: str, attributes: Dict[str, str]) -> None:
-        if self._depth == 0 and tag != 'package':
-            raise PackageError('The manifest must contain a single "package" root tag', self.path)
-        if self._depth == 0 and attributes.get('format', '1').strip() not in ('1', '2', '3'):
-            raise PackageError('format version %s is unknown, expected 1, 2 or 3'
-                               % quoted(attributes['format']), self.path)
-        self._depth += 1
-        if self._depth == 2:
-            self._section = tag
-            self._text.clear()
-        elif self._section == 'export' and self._depth == 3:
-            self.exports.append(Export(tag, attributes, '', self._parser.CurrentLineNumber,
-                                       self._parser.CurrentColumnNumber + 1))
-            self._text.clear()
-        elif self._section == 'export':
-            self._text.append('<%s>' % tag)
-
-    def _end(self, tag: str) -> None:
-        if self._depth == 2 and tag == 'name':
-            self.names.append(''.join(self._text))
-        elif self._depth == 3 and self._section == 'export':
-            self.exports[-1] = self.exports[-1]._replace(text=''.join(self._text).strip())
-        self._depth -= 1
-
-
-def as_package(package: Union[Package, CatkinPackage]) -> Package:
-    """
-    A package of catkin_pkg as this module describes it; one of this module is returned as it is.
-
-    catkin_pkg leaves the text of an export as XML, which is read here, and gives it no place.
-    """
-    if isinstance(package, Package):
-        return package
-    manifest = os.path.abspath(package.filename)
-    exports = [Export(export.tagname, export.attributes, _text_of(export.content or ''), None, None)
-               for export in package.exports]
-    return Package(package.name, os.path.dirname(manifest), manifest, exports)
-
-
-def _text_of(content: str) -> str:
-    """The text of an element, given as the XML in it."""
-    reader = _ManifestReader('')
-    try:
-        reader.read('<package><export><_>%s</_></export></package>' % content)
-        return reader.exports[0].text
-    except PackageError:    # made by code that escaped nothing
-        return content.strip()

@@ -56,7 +56,7 @@ class YamlMapping(_Positioned, dict):   # type: ignore[type-arg]    # Python 3.8
                  positions: Optional[Dict[object, Tuple[int, int, int, int]]] = None) -> None:
         self._start = line, column
         self._positions = {} if positions is None else positions
-        #: What was lost to duplicate keys: (key, its earlier value, position of the duplicate) each.
+        #: what was lost to duplicate keys, each (key, its earlier value, position of the duplicate)
         self.repeated: Sequence[Tuple[object, object, Position]] = ()
 
     def key_position(self, key: object) -> Position:

@@ -1,0 +1,220 @@
+"""
+The one reader of a ``package.xml``: the name of a package, and what it exports.
+
+A manifest is UTF-8 of at most 1 MiB, as catkin_pkg reads it whatever its XML declaration says, and
+declares no entities.
+"""
+from __future__ import annotations
+
+import codecs
+import os
+import re
+from typing import TYPE_CHECKING, Dict, List, NamedTuple, Optional, Union
+from xml.parsers import expat
+
+from rocon_uri.sources.located import LocatedError
+from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.yaml_data import MAX_SIZE
+from rocon_uri.sources.yaml_source import read_file
+
+if TYPE_CHECKING:
+    from catkin_pkg.package import Package as CatkinPackage
+
+__all__ = ['Export', 'MANIFEST', 'Package', 'PackageError', 'as_package', 'package_from_manifest',
+           'read_manifest']
+
+#: the name of the file that makes a folder a package
+MANIFEST = 'package.xml'
+
+_is_name = re.compile('[A-Za-z0-9][A-Za-z0-9_-]*').fullmatch    # as catkin_pkg has it
+
+
+class PackageError(LocatedError):
+    """
+    A package that is left out: its manifest, ``file_name``, is faulty, or its name is taken.
+
+    ``file_name`` is the folder where that cannot be read. The attributes are those of
+    `rocon_uri.sources.located.LocatedError`.
+
+    >>> print(PackageError('no element found', 'a_package/package.xml', 3, 1))
+    a_package/package.xml:3:1: no element found
+    """
+
+    @property
+    def msg(self) -> str:
+        """The earlier name of ``problem``."""
+        return self.problem
+
+
+class Export(NamedTuple):
+    """One element directly in the ``<export>`` of a manifest."""
+
+    #: the element's name
+    tag: str
+    #: its attributes
+    attributes: Dict[str, str]
+    #: The text in it, without white space around it: escapes and CDATA are resolved, comments left
+    #: out. An element in it is written ``<tag>``, so that no path leads to a file by accident.
+    text: str
+    #: where it begins, counted from 1, or None where that is not known
+    line: Optional[int]
+    column: Optional[int]
+
+    def file(self, attribute: str = '') -> str:
+        """
+        The file or folder that an attribute, or else the text, names; '' if it names none.
+
+        It is relative to the package, whose folder is ``${prefix}``.
+
+        >>> Export('rocon_uri', {'rules': '${prefix}/robots.yaml'}, '', 9, 5).file('rules')
+        './robots.yaml'
+        """
+        name = self.attributes.get(attribute, '') if attribute else self.text
+        return name.replace('${prefix}', '.')
+
+
+class Package(NamedTuple):
+    """What is known of a package from its manifest."""
+
+    #: its name, as the manifest says it
+    name: str
+    #: the absolute path of its folder
+    folder: str
+    #: the absolute path of its package.xml
+    manifest: str
+    #: what it exports, in the order of the manifest
+    exports: List[Export]
+
+    def files(self, tag: str, attribute: str = '') -> List[str]:
+        """
+        The paths that elements of this tag name, by an attribute (if they have it) or their text.
+
+        They are absolute and normalised, in the order of the exports. They need not exist.
+
+        >>> laser = Export('rocon_app', {}, 'rapps/scan.rapp', 9, 5)
+        >>> Package('ours', '/src/ours', '/src/ours/package.xml', [laser]).files('rocon_app')
+        ['/src/ours/rapps/scan.rapp']
+        """
+        names = [export.file(attribute) for export in self.exports if export.tag == tag]
+        # An empty text leaves a slash at the end, which says that the folder itself is meant.
+        return [os.path.normpath(os.path.join(self.folder, name)) if name
+                else os.path.join(self.folder, '') for name in names if name or not attribute]
+
+
+def read_manifest(path: str) -> str:
+    """
+    The text of a package.xml.
+
+    :raises PackageError: if it cannot be read, is too large, not UTF-8 or declares entities
+    """
+    try:
+        content = read_file(path)
+        text = content.decode('utf-8')
+    except OSError as error:
+        raise PackageError(error.strerror or str(error), path) from error
+    except UnicodeDecodeError as error:
+        raise PackageError('not a valid manifest: %s' % error, path) from error
+    if len(content) > MAX_SIZE:
+        raise PackageError('larger than 1 MiB, which is all that is read', path)
+    if '<!ENTITY' in text:  # not every expat bounds how large they become
+        raise PackageError('it declares entities, and those are not read', path)
+    return text
+
+
+def package_from_manifest(path: str) -> Package:
+    """
+    The package of one package.xml.
+
+    :raises PackageError: if it cannot be read, is not XML, or has no name
+    """
+    path = os.path.abspath(path)
+    reader = _ManifestReader(path)
+    reader.read(read_manifest(path))
+    names = [name.strip(' \n\r\t') for name in reader.names]
+    if len(names) != 1:
+        raise PackageError('The manifest must contain exactly one "name" tag', path)
+    if not _is_name(names[0]):
+        raise PackageError('Package name %s does not follow naming conventions (letters, digits, _ '
+                           'and -)' % quoted(names[0]), path)
+    return Package(names[0], os.path.dirname(path), path, reader.exports)
+
+
+class _ManifestReader:
+    """Collects the names and the exports of a manifest while expat reads it."""
+
+    def __init__(self, path: str) -> None:
+        self.path = path
+        self.names: List[str] = []
+        self.exports: List[Export] = []
+        self._depth = 0
+        self._section = ''              # the element below <package> that is read
+        self._text: List[str] = []      # of the name or the export that is read
+        self._parser = expat.ParserCreate('utf-8')
+        self._parser.buffer_text = True
+        self._parser.XmlDeclHandler = self._declaration
+        self._parser.StartElementHandler = self._start
+        self._parser.EndElementHandler = self._end
+        self._parser.CharacterDataHandler = self._text.append
+
+    def read(self, text: str) -> None:
+        """Read a whole manifest; PackageError if it is not XML."""
+        try:
+            self._parser.Parse(text, True)
+        except expat.ExpatError as error:
+            raise PackageError('not XML: ' + expat.ErrorString(error.code), self.path,
+                               error.lineno, error.offset + 1) from error
+
+    def _declaration(self, version: str, encoding: Optional[str], standalone: int) -> None:
+        try:
+            codecs.lookup(encoding or 'utf-8')
+        except (LookupError, ValueError):
+            raise PackageError('the encoding %s of its XML declaration is unknown'
+                               % quoted(str(encoding)), self.path, 1, 1) from None
+
+    def _start(self, tag: str, attributes: Dict[str, str]) -> None:
+        if self._depth == 0 and tag != 'package':
+            raise PackageError('The manifest must contain a single "package" root tag', self.path)
+        if self._depth == 0 and attributes.get('format', '1').strip() not in ('1', '2', '3'):
+            raise PackageError('format version %s is unknown, expected 1, 2 or 3'
+                               % quoted(attributes['format']), self.path)
+        self._depth += 1
+        if self._depth == 2:
+            self._section = tag
+            self._text.clear()
+        elif self._section == 'export' and self._depth == 3:
+            self.exports.append(Export(tag, attributes, '', self._parser.CurrentLineNumber,
+                                       self._parser.CurrentColumnNumber + 1))
+            self._text.clear()
+        elif self._section == 'export':
+            self._text.append('<%s>' % tag)
+
+    def _end(self, tag: str) -> None:
+        if self._depth == 2 and tag == 'name':
+            self.names.append(''.join(self._text))
+        elif self._depth == 3 and self._section == 'export':
+            self.exports[-1] = self.exports[-1]._replace(text=''.join(self._text).strip())
+        self._depth -= 1
+
+
+def as_package(package: Union[Package, CatkinPackage]) -> Package:
+    """
+    A package of catkin_pkg as this module describes it; one of this module is returned as it is.
+
+    catkin_pkg leaves the text of an export as XML, which is read here, and gives it no place.
+    """
+    if isinstance(package, Package):
+        return package
+    manifest = os.path.abspath(package.filename)
+    exports = [Export(export.tagname, export.attributes, _text_of(export.content or ''), None, None)
+               for export in package.exports]
+    return Package(package.name, os.path.dirname(manifest), manifest, exports)
+
+
+def _text_of(content: str) -> str:
+    """The text of an element, given as the XML in it."""
+    reader = _ManifestReader('')
+    try:
+        reader.read('<package><export><_>%s</_></export></package>' % content)
+        return reader.exports[0].text
+    except PackageError:    # made by code that escaped nothing
+        return content.strip()
