@@ -52,7 +52,8 @@ def test_what_runs_is_listed_and_nothing_else(apps):
     assert apps('--robot', ROBOT, '--package-path', EXAMPLES) == (0, [
         ROBOT + ' can run 2 of 6 apps:',
         '  cafe_rapps/patrol         Patrol: Looks at every table and says which ones are dirty',
-        '  cafe_rapps/radio          Radio: Plays music'], '')
+        '  cafe_rapps/radio          Radio: Plays music',
+        'cannot run 4: --all, or the NAME of one, shows why'], '')
 
 
 def test_all_says_what_does_not_run_and_why(apps):
@@ -60,14 +61,19 @@ def test_all_says_what_does_not_run_and_why(apps):
     text = '\n'.join(lines)
     assert status == 0
     assert '      with cafe_capabilities/turtlebot_base, cafe_capabilities/front_camera' in lines
-    assert lines[4] == 'and cannot run:'
+    assert lines[6] == 'and cannot run:'
+    for name in 'radio', 'greet':
+        assert any(line.startswith('      in ')
+                   and line.endswith('cafe_rapps/rapps/%s/%s.rapp' % (name, name))
+                   for line in lines)
     for reason in (
             "      'rocon:/cafe_cart' does not include this robot: hardware_platform is turtlebot2",
             "      capability 'cafe_capabilities/Speech': several providers implement it",
             "' depends on 'cafe_capabilities/Lift': no provider implements it"):
         assert reason in text
-    assert '        x  hardware_platform      cafe_cart  turtlebot2  nothing' in lines
-    assert lines[-1] == 'Virtual, as parents of others: cafe_rapps/round'
+    assert '        .  hardware_platform      cafe_cart  turtlebot2  nothing' in lines
+    assert '        x  application_framework  *          noetic      noetic' in lines
+    assert lines[-2:] == ['(x fits, . does not)', 'Virtual, as parents of others: cafe_rapps/round']
 
 
 def test_defaults_choose_among_providers(apps, tmp_path):
@@ -84,12 +90,13 @@ def test_defaults_choose_among_providers(apps, tmp_path):
     ('- a', '1:1: the file is a list, expected a mapping from interfaces to providers'),
     ('a: 7', "1:4: the default provider of 'a' is 7, expected text"),
     ('a: b\na: c', "2:1: duplicate key 'a'")])
-def test_bad_defaults_are_an_error(apps, tmp_path, content, error):
+def test_bad_defaults_are_an_error_and_all_else_is_judged(apps, tmp_path, content, error):
     path = tmp_path / 'defaults.yaml'
     if content is not None:
         path.write_text(content)
     status, lines, err = apps('--robot', ROBOT, '--package-path', EXAMPLES, '--defaults', path)
-    assert (status, lines) == (2, []) and error in err and str(path) in err
+    assert status == 2 and error in err and str(path) in err
+    assert lines[0] == ROBOT + ' can run 2 of 6 apps:'
 
 
 def test_a_robot_that_another_package_registers_runs_its_apps(apps):
@@ -100,7 +107,8 @@ def test_a_robot_that_another_package_registers_runs_its_apps(apps):
 def test_nothing_that_runs_is_status_1(apps, tmp_path):
     dance(tmp_path)
     assert apps('--robot', ROBOT, '--package-path', tmp_path) == (
-        1, [ROBOT + ' can run 0 of 1 apps'], '')
+        1, [ROBOT + ' can run 0 of 1 apps',
+            'cannot run 1: --all, or the NAME of one, shows why'], '')
 
 
 def test_the_package_path_is_that_of_ros_and_the_robot_this_machine(apps, tmp_path, monkeypatch):
@@ -111,7 +119,7 @@ def test_the_package_path_is_that_of_ros_and_the_robot_this_machine(apps, tmp_pa
     status, lines, err = apps()
     assert (status, err) == (0, '')
     assert lines[0].startswith('rocon:/pc/') and lines[0].endswith(' can run 1 of 2 apps:')
-    assert lines[1:] == ['  ours/dance']
+    assert lines[1:-1] == ['  ours/dance']
 
 
 def test_without_any_package_path_it_says_what_is_needed(apps):
@@ -122,7 +130,7 @@ def test_without_any_package_path_it_says_what_is_needed(apps):
 def test_a_folder_that_is_not_there_is_an_error_and_hides_no_other(apps, tmp_path):
     path = '%s%s%s' % (tmp_path / 'gone', os.pathsep, EXAMPLES)
     status, lines, err = apps('--robot', ROBOT, '--package-path', path)
-    assert status == 2 and len(lines) == 3 and "gone' is not a directory" in err
+    assert status == 2 and len(lines) == 4 and "gone' is not a directory" in err
 
 
 def test_a_bad_robot_is_an_error(apps):
@@ -134,7 +142,8 @@ def test_a_robot_that_is_not_registered_is_an_error_and_gets_what_runs_anywhere(
     status, lines, err = apps('--robot', 'rocon:/turtelbot2/bob', '--package-path', EXAMPLES)
     assert status == 2 and "did you mean 'turtlebot2'" in err
     assert lines == ['rocon:/turtelbot2/bob can run 1 of 6 apps:',
-                     '  cafe_rapps/radio          Radio: Plays music']
+                     '  cafe_rapps/radio          Radio: Plays music',
+                     'cannot run 5: --all, or the NAME of one, shows why']
 
 
 def test_a_robot_with_one_slash_too_many_is_mentioned(apps):
@@ -142,15 +151,14 @@ def test_a_robot_with_one_slash_too_many_is_mentioned(apps):
     assert status == 0 and "is read as 'rocon:/turtlebot2/bob'" in err
 
 
-def test_what_is_wrong_with_one_file_is_said_once_and_hides_no_other(apps, tmp_path):
-    bad = dance(tmp_path, 'launch: 7', 'bad')
+def test_files_with_faults_are_counted_and_spoil_no_answer(apps, tmp_path):
+    dance(tmp_path, 'launch: 7', 'bad')
     (make_package(tmp_path, 'worse') / 'package.xml').write_text('<package>')
     make_package(tmp_path, 'specs', [('capability_provider', 'p.yaml')], p_yaml='[')
     dance(tmp_path)
     status, lines, err = apps('--robot', 'rocon:/kobuki/bob', '--package-path', tmp_path)
-    assert status == 2 and lines[1:] == ['  ours/dance']
-    assert err.count(str(tmp_path)) == 3 and err.count('\n') == 3
-    assert '%s:1:9: launch is 7, expected text' % (bad / 'dance.rapp') in err
+    assert (status, lines[1:]) == (0, ['  ours/dance'])
+    assert err == '3 files have faults: rocon_uri specs check --package-path %s\n' % tmp_path
 
 
 def test_the_command_itself_says_nothing_twice_and_knows_all_rules(tmp_path):
@@ -163,9 +171,8 @@ def test_the_command_itself_says_nothing_twice_and_knows_all_rules(tmp_path):
          '--robot', 'rocon:/our_robot', '--package-path', path],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
         env=dict(os.environ, ROCON_URI_RULES=str(tmp_path / 'rules.yaml')))
-    assert done.stderr == '%s:1:9: launch is 7, expected text\n' % (
-        tmp_path / 'bad' / 'dance.rapp')
-    assert done.returncode == 2 and 'cafe_rapps/radio' in done.stdout
+    assert done.stderr == '1 file has faults: rocon_uri specs check --package-path %s\n' % path
+    assert done.returncode == 0 and 'cafe_rapps/radio' in done.stdout
 
 
 def test_control_characters_of_files_do_not_reach_the_terminal(apps, tmp_path):
@@ -180,7 +187,7 @@ def test_a_file_name_that_is_no_text_is_no_traceback(apps, tmp_path):
     (folder / 'caf\u00e9.rapp').write_text('{compatibility: "rocon:/", launch: d.launch}')
     os.rename(os.fsencode(str(tmp_path)) + b'/ours', os.fsencode(str(tmp_path)) + b'/our\xff')
     status, lines, _ = apps('--robot', ROBOT, '--package-path', tmp_path, '--all')
-    assert (status, lines[1:]) == (0, ['  ours/caf\u00e9'])
+    assert (status, lines[1]) == (0, '  ours/caf\u00e9')
 
 
 def test_json_has_what_runs_and_with_all_the_reasons(apps_json):
@@ -211,7 +218,7 @@ def test_json_has_what_runs_and_with_all_the_reasons(apps_json):
 def test_json_has_the_errors(apps_json, tmp_path):
     dance(tmp_path, 'launch: 7')
     status, answer = apps_json('--robot', 'rocon:/zork', '--package-path', tmp_path)
-    assert status == 2 and answer['apps'] == []
+    assert (status, answer['apps']) == (2, [])
     assert [(error['field'], error['line']) for error in answer['errors']] == [
         (None, 1), ('hardware_platform', None)]
 
@@ -259,8 +266,8 @@ def test_an_app_whose_launch_file_cannot_be_started_does_not_run(
     (folder / 'dance.launch').write_text(content)
     given = ('--robot', 'rocon:/kobuki/bob', '--package-path', tmp_path, '--all')
     status, lines, _ = apps(*given)
-    assert (status, lines[1:]) == (1, [
-        'and cannot run:', '  ours/dance', '      %s [%s]' % (text, kind)])
+    assert (status, lines[1:3], lines[4:]) == (1, [
+        'and cannot run:', '  ours/dance'], ['      %s [%s]' % (text, kind)])
     status, answer = apps_json(*given)
     assert status == 1 and answer['apps'][0]['reasons'] == [
         {'kind': kind, 'text': text, 'fields': None, 'fault': None}]
@@ -284,3 +291,101 @@ def test_each_kind_of_reason_can_be_ignored(apps_json):
 def test_to_ignore_what_is_no_reason_is_an_error(capsys, given, hint):
     assert main(['apps', '--ignore', given]) == 2
     assert hint in capsys.readouterr().err
+
+
+# One app
+
+def test_one_app_is_judged_with_all_that_was_judged(apps):
+    status, lines, err = apps('cafe_rapps/greet', '--robot', ROBOT, '--package-path', EXAMPLES)
+    assert (status, err) == (1, '')
+    assert lines[0] == 'no: %s cannot run cafe_rapps/greet' % ROBOT
+    assert lines[1:3] == ['  Greet', '  Says hello to whoever comes in']
+    assert lines[3].endswith('cafe_rapps/rapps/greet/greet.rapp')
+    assert lines[4:6] == ['judged  (x fits, . does not)',
+                          "  x  platform   'rocon:/robot/*/ros' includes this robot"]
+    assert lines[6].startswith('  x  launch     ') and lines[6].endswith('greet.launch')
+    assert lines[7].startswith("  .  ambiguous  capability 'cafe_capabilities/Speech': several ")
+    assert lines[8:] == ['cafe_capabilities/Speech',
+                         '  requires  topics  /say  std_msgs/String  in the app greet/say']
+
+
+def test_one_app_that_runs_shows_its_plan_and_the_names_that_it_sees(apps):
+    status, lines, _ = apps('cafe_rapps/patrol', '--robot', ROBOT, '--package-path', EXAMPLES)
+    assert status == 0
+    assert lines[0] == 'yes: %s can run cafe_rapps/patrol' % ROBOT
+    start = lines.index('starts for it, in this order')
+    assert lines[start - 1] == ('  x  capability  cafe_capabilities/FrontCamera by '
+                                'cafe_capabilities/front_camera')
+    assert lines[start + 1:start + 6] == [
+        '  cafe_capabilities/turtlebot_base', '  cafe_capabilities/front_camera',
+        'cafe_capabilities/MobileBase by cafe_capabilities/turtlebot_base',
+        '  requires  topics  /cmd_vel  geometry_msgs/Twist  on the robot '
+        '/mobile_base/commands/velocity, in the app patrol/velocity',
+        '  provides  topics  /odom     nav_msgs/Odometry    in the app patrol/odom']
+    # as the semantic interface has them
+    assert ('  provides  topics    front/camera/camera_info      sensor_msgs/CameraInfo'
+            in lines[start + 6:])
+
+
+def test_one_app_shows_the_table_of_its_platform(apps):
+    _, lines, _ = apps('cafe_cart/carry', '--robot', ROBOT, '--package-path', EXAMPLES)
+    table = lines[lines.index('platform'):]
+    assert table[2] == '  .  hardware_platform      cafe_cart  turtlebot2  nothing'
+    assert table[3] == '  x  name                   *          bob         bob'
+
+
+def test_several_apps_run_only_if_each_does(apps, apps_json):
+    given = ('--robot', ROBOT, '--package-path', EXAMPLES)
+    assert apps('cafe_rapps/patrol', 'cafe_rapps/radio', *given)[0] == 0
+    status, lines, _ = apps('cafe_rapps/radio', 'cafe_rapps/greet', *given)
+    assert status == 1 and [line[:3] for line in lines if ROBOT in line] == ['yes', 'no:']
+    status, answer = apps_json('cafe_rapps/radio', 'cafe_rapps/greet', *given)
+    assert (status, [app['runs'] for app in answer['apps']]) == (1, [True, False])
+
+
+@pytest.mark.parametrize('name, meant', [
+    ('cafe_rapps/gret', 'cafe_rapps/greet'), ('cafe/greet', 'cafe_rapps/greet'),
+    ('greet', 'cafe_rapps/greet')])
+def test_an_app_that_is_not_there_gets_near_misses(apps, apps_json, name, meant):
+    given = (name, 'cafe_rapps/radio', '--robot', ROBOT, '--package-path', EXAMPLES)
+    status, lines, err = apps(*given)
+    assert (status, err) == (2, "rocon_uri: no app has the name '%s' (did you mean '%s'?)\n" % (
+        name, meant))
+    assert lines[0] == 'yes: %s can run cafe_rapps/radio' % ROBOT
+    status, answer = apps_json(*given)
+    assert status == 2 and [app['name'] for app in answer['apps']] == ['cafe_rapps/radio']
+    assert answer['errors'][0]['suggestions'] == [meant]
+
+
+def test_the_faults_that_are_about_what_was_asked_are_shown(apps, tmp_path):
+    bad = dance(tmp_path, 'launch: 7', 'bad')
+    make_package(tmp_path, 'caps', [('capability_interface', 'Legs.yaml')], Legs_yaml='[')
+    dance(tmp_path, '{compatibility: "rocon:/kobuki", launch: dance.launch, '
+                    'required_capabilities: [{name: caps/Legs}]}')
+    given = ('--robot', 'rocon:/kobuki', '--package-path', tmp_path)
+    status, _, err = apps('ours/dance', *given)
+    assert status == 1 and str(tmp_path / 'caps' / 'Legs.yaml') in err.splitlines()[0]
+    assert err.splitlines()[1].startswith('1 file has faults: ')
+    status, _, err = apps('bad/dance', *given)
+    assert status == 2 and "no app has the name 'bad/dance'" in err
+    assert '%s:1:9: launch is 7, expected text' % (bad / 'dance.rapp') in err
+
+
+def test_json_of_one_app_has_the_names_of_its_capabilities(apps_json):
+    status, answer = apps_json('cafe_rapps/patrol', '--robot', ROBOT, '--package-path', EXAMPLES)
+    assert status == 0
+    base = answer['apps'][0]['capabilities'][0]
+    assert (base['name'], base['provider']) == ('cafe_capabilities/MobileBase',
+                                                'cafe_capabilities/turtlebot_base')
+    assert base['names'][0] == {
+        'kind': 'topics', 'grouping': 'requires', 'name': '/cmd_vel', 'type': 'geometry_msgs/Twist',
+        'robot_name': '/mobile_base/commands/velocity', 'app_name': 'patrol/velocity'}
+
+
+@pytest.mark.parametrize('robot, runs', [('rocon:/turtlebot2/3bob', []), ('zork', []),
+                                         ('rocon:/zork', ['cafe_rapps/radio'])])
+def test_json_is_one_object_whatever_is_wrong(apps_json, robot, runs):
+    status, answer = apps_json('--robot', robot, '--defaults', '/no/such/file',
+                               '--package-path', EXAMPLES)
+    assert status == 2 and [app['name'] for app in answer['apps']] == runs
+    assert [error['file'] for error in answer['errors']] == [None, '/no/such/file']

@@ -46,7 +46,7 @@ def test_the_answers_are_those_of_a_loop_in_the_order_of_the_file(lines, file, c
             expected.append('%s  %s' % (' '.join('.x'[verdict] for verdict in verdicts), line))
     assert main(['match', '--matrix', *REQUESTS, '--in', file]) == 2
     printed = capsys.readouterr()
-    assert printed.out.splitlines()[len(REQUESTS):] == expected
+    assert printed.out.splitlines()[1 + len(REQUESTS):] == expected
     bad = [number for number, line in enumerate(lines, 1) if line == 'rocon:/zork']
     assert [error.split(':')[1] for error in printed.err.splitlines()] == list(map(str, bad))
 

@@ -17,7 +17,15 @@ if TYPE_CHECKING:
     from typing import Dict, List, Optional, Union
     Resource = Union[str, RoconURI]
 
-__all__ = ['Explanation', 'FieldComparison', 'Relation', 'explain', 'is_compatible', 'relation']
+__all__ = ['Explanation', 'FieldComparison', 'LEGEND', 'MARKS', 'Relation', 'UNDECIDED',
+           'explain', 'is_compatible', 'relation']
+
+#: The letters of all tables: whether something fits, None where that is too complex to say.
+MARKS = {True: 'x', False: '.', None: '?'}
+
+#: What they mean, and what is added to it where the third one can occur.
+LEGEND = 'x fits, . does not'
+UNDECIDED = ', ? is too complex to say'
 
 
 class Relation(Enum):
@@ -125,25 +133,28 @@ class Explanation:
         for field, a, b, overlap, shared in self.fields:
             example = 'e.g. ' if field == 'name' and shared not in (a, b, '') else ''
             in_common = 'too complex to say' if overlap is None else example + shared or 'nothing'
-            rows.append(('x' if overlap is False else '', field, a, b, in_common))
+            rows.append((MARKS[overlap], field, a, b, in_common))
         widths = [max(map(len, column)) for column in zip(*rows)]
         lines = ['  '.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()
                  for row in rows]
-        return '\n'.join(['compatible' if self else 'not compatible'] + lines)
+        undecided = any(field.is_compatible is None for field in self.fields)
+        return '\n'.join(['compatible' if self else 'not compatible', *lines,
+                          LEGEND + UNDECIDED * undecided])
 
 
 def explain(a: Resource, b: Resource) -> Explanation:
     """
     Why two URIs are compatible, or why they are not; it takes and raises what `relation` does.
 
-    :returns: `Explanation`, whose text is a table of the fields
+    :returns: `Explanation`, whose text is a table of the fields, with a legend in its last line
 
     >>> print(explain('rocon:/kobuki/arm_*', 'rocon:/pr2/*_left/noetic'))
     not compatible
        field                  first   second  in common
-    x  hardware_platform      kobuki  pr2     nothing
-       name                   arm_*   *_left  e.g. arm_left
-       application_framework  *       noetic  noetic
-       operating_system       *       *       *
+    .  hardware_platform      kobuki  pr2     nothing
+    x  name                   arm_*   *_left  e.g. arm_left
+    x  application_framework  *       noetic  noetic
+    x  operating_system       *       *       *
+    x fits, . does not
     """
     return Explanation(*comparable(a, b))

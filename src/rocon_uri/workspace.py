@@ -1,5 +1,5 @@
 """
-All that some packages export, read once: specs, rapps and rules, and what is wrong with each.
+All that some packages export, read once: specs, apps and rules, and what is wrong with each.
 
 >>> workspace = read_workspace(['examples/workspace'])
 >>> 'cafe_rapps/serve' in workspace.rapps, workspace.faults
@@ -17,9 +17,12 @@ from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import CapabilityInterface
 from capabilities.specs.provider import CapabilityProvider
 from capabilities.specs.semantic_interface import SemanticCapabilityInterface
+from rocon_uri.apps.app_file import AppFile
+from rocon_uri.apps.installed import app_files_from_package_index
 from rocon_uri.apps.rapp import Rapp
 from rocon_uri.apps.rapps import (
     rapp_file_index_from_package_index, rapps_from_rapp_file_index, with_inheritance)
+from rocon_uri.apps.runnable import App
 from rocon_uri.sources.located import Fault as FileFault
 from rocon_uri.sources.launch_file import LaunchFiles
 from rocon_uri.sources.packages import Package, PackageError, find_packages
@@ -45,15 +48,23 @@ class Workspace(NamedTuple):
     rapps: Dict[str, Rapp]
     #: all rapps that can be read by name, with what their own files say
     own_rapps: Dict[str, Rapp]
+    #: the apps of app_manager by name
+    app_files: Dict[str, AppFile]
     #: the cycle of each provider that depends on itself, through others or not, by its name
     cycles: Dict[str, Fault]
     #: the launch files that were looked at so far
     launch_files: LaunchFiles
     #: what this machine knows, and what the packages add
     vocabulary: Vocabulary
-    #: What is wrong, in the order of packages, specs, rapps and rules: `PackageError`;
-    #: the errors of `spec_index_from_spec_file_index`; `InvalidRapp`; `YamlError` and `OSError`
+    #: What is wrong, in the order of packages, specs, rapps, other apps and rules: `PackageError`;
+    #: the errors of `spec_index_from_spec_file_index`; `InvalidRapp`; `InvalidApp`; `YamlError` and
+    #: `OSError`
     faults: List[FileFault]
+
+    def apps(self) -> Iterator[App]:
+        """All apps: the rapps, then those of app_manager. Two may have one name."""
+        yield from self.rapps.values()
+        yield from self.app_files.values()
 
     def specs(self) -> Iterator[Tuple[str, Union[Capability, CapabilityProvider]]]:
         """All specs, each as (path of its file, spec)."""
@@ -95,10 +106,13 @@ def load_workspace(packages: Mapping[str, Package], faults: Iterable[FileFault] 
     own_rapps, rapp_faults = rapps_from_rapp_file_index(
         rapp_file_index_from_package_index(packages))
     rapps, heirs_faults = with_inheritance(own_rapps.values())
+    app_files, app_faults = app_files_from_package_index(packages)
     vocabulary, rules_faults = vocabulary_of_packages(packages)
     return Workspace(
         packages=packages, spec_index=index,
         capabilities={**index.interfaces, **index.semantic_interfaces}, providers=index.providers,
-        rapps=rapps, own_rapps=own_rapps, launch_files=LaunchFiles(), vocabulary=vocabulary,
+        rapps=rapps, own_rapps=own_rapps, app_files=app_files, launch_files=LaunchFiles(),
+        vocabulary=vocabulary,
         cycles={name: fault for fault in find_cycles(index) for name in fault.cycle},
-        faults=[*faults, *spec_faults, *rapp_faults, *heirs_faults, *rules_faults])
+        faults=[*faults, *spec_faults, *rapp_faults, *heirs_faults, *app_faults,
+                *rules_faults])

@@ -113,6 +113,11 @@ class Rapp(NamedTuple):
     source: YamlMapping
 
     @property
+    def form(self) -> str:
+        """``'rapp'``, as opposed to ``'app'``, the other form of an app."""
+        return 'rapp'
+
+    @property
     def package(self) -> str:
         """The name of the package that exports it."""
         return self.name.partition('/')[0]

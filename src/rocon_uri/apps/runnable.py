@@ -1,9 +1,8 @@
 """
-Can a rapp run on a robot, and if not, why not?
+Can an app run on a robot, and if not, why not?
 
-A rapp runs if it is an implementation, if its compatibility string matches the robot's URI, and if
-its launch file and each capability that it requires can be started. The verdict has all reasons
-against it, not only the first.
+An app runs if its platform includes the robot, and if its launch file and each capability that it
+requires can be started. The verdict has all reasons against it, not only the first.
 """
 from __future__ import annotations
 
@@ -12,26 +11,33 @@ from enum import Enum
 from typing import Collection, Iterator, Mapping, NamedTuple, Optional, Tuple, Union
 
 from capabilities.planning.faults import Fault, FaultKind
+from capabilities.planning.plan import StartPlan
 from capabilities.planning.providers import plan_for_capabilities
 from capabilities.spec_index import SpecIndex
+from rocon_uri.apps.app_file import WHAT_RESOURCES_ARE, AppFile, launch_file_fault
 from rocon_uri.apps.rapp import Rapp
+from rocon_uri.apps.resources import AMBIGUOUS, MISSING
 from rocon_uri.compatibility import Explanation, explain
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.sources.launch_file import LaunchFiles
+from rocon_uri.sources.wording import quoted
 from rocon_uri.uri import RoconURI, parse
 from rocon_uri.vocabulary import Vocabulary
 
-__all__ = ['REASON_IDS', 'Reason', 'ReasonKind', 'Verdict', 'runnable']
+__all__ = ['REASON_IDS', 'App', 'Reason', 'ReasonKind', 'Verdict', 'runnable']
+
+#: Either form of an app.
+App = Union[Rapp, AppFile]
 
 
 class ReasonKind(Enum):
-    """What a reason against running a rapp is about."""
+    """What a reason against running an app is about."""
 
     #: it is virtual, a parent of others only
     VIRTUAL = 'virtual'
-    #: its compatibility string does not match the robot, or is not legal
+    #: what it runs on does not include the robot, or is not legal
     PLATFORM = 'platform'
-    #: its own launch file cannot be started
+    #: its own launch file cannot be started, or another file that it cannot do without is not there
     LAUNCH = 'launch'
     #: a capability that it requires cannot be had
     CAPABILITY = 'capability'
@@ -42,12 +48,15 @@ class ReasonKind(Enum):
 #: The ids that reasons may have, in a stable order.
 REASON_IDS: Tuple[str, ...] = (ReasonKind.VIRTUAL.value, ReasonKind.PLATFORM.value,
                                *(kind.value for kind in FaultKind
-                                 if kind is not FaultKind.NO_NODELET_MANAGER))
+                                 if kind is not FaultKind.NO_NODELET_MANAGER),
+                               'launch-ambiguous',
+                               *('%s-%s' % (key, kind) for key in ('run', 'interface')
+                                 for kind in (MISSING, AMBIGUOUS)))
 
 
 class Reason(NamedTuple):
     """
-    One thing that is against running a rapp. Its text is one line.
+    One thing that is against running an app. Its text is one line.
 
     >>> print(Reason(ReasonKind.VIRTUAL, 'virtual', 'it is virtual: it has no launch'))
     it is virtual: it has no launch
@@ -59,7 +68,7 @@ class Reason(NamedTuple):
     id: str
     #: what is wrong; '' if a capability is the reason, since ``fault`` has the text
     problem: str = ''
-    #: of the rapp and the robot, if their platforms were compared; its text is a table of fields
+    #: of the app and the robot, if their platforms were compared; its text is a table of fields
     explanation: Optional[Explanation] = None
     #: if a capability is the reason
     fault: Optional[Fault] = None
@@ -70,43 +79,51 @@ class Reason(NamedTuple):
 
 class Verdict(NamedTuple):
     """
-    Whether a rapp runs on a robot; true if it does.
+    Whether an app runs on a robot; true if it does.
 
     >>> from rocon_uri.apps.rapps import rapp_from_string
-    >>> print(Verdict(rapp_from_string('launch: dance.launch', 'ours/dance'), (), ()))
+    >>> dance = rapp_from_string('launch: dance.launch', 'ours/dance')
+    >>> print(Verdict(dance, (), StartPlan([], {}, {}, [])))
     ours/dance runs
     """
 
     #: what is judged
-    rapp: Rapp
+    app: App
     #: all reasons against it; empty if it runs
     reasons: Tuple[Reason, ...]
-    #: the providers of capabilities to start for it, in order; as many as can be had
-    providers: Tuple[str, ...]
+    #: what starts for it, as much of it as can be had
+    plan: StartPlan
+
+    @property
+    def providers(self) -> Tuple[str, ...]:
+        """The providers of capabilities to start for it, in order; as many as can be had."""
+        return tuple(self.plan.order)
 
     def __bool__(self) -> bool:
         return not self.reasons
 
     def __str__(self) -> str:
         if self:
-            return '%s runs' % self.rapp.name
-        return '%s does not run: %s' % (self.rapp.name, '; '.join(map(str, self.reasons)))
+            return '%s runs' % self.app.name
+        return '%s does not run: %s' % (self.app.name, '; '.join(map(str, self.reasons)))
 
 
-def runnable(rapp: Rapp, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
+def runnable(app: App, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
              defaults: Optional[Mapping[str, str]] = None,
-             launch_files: Optional[LaunchFiles] = None,
-             ignore: Collection[str] = ()) -> Verdict:
+             launch_files: Optional[LaunchFiles] = None, ignore: Collection[str] = (),
+             robot_type: Optional[str] = None) -> Verdict:
     """
-    Can this rapp run on this robot?
+    Can this app run on this robot?
 
-    :param Rapp rapp: with what it has from its parents
+    :param app: `Rapp`, with what it has from its parents, or `AppFile`
     :param robot_uri: the robot, RoconURI or str; it may have values that are not registered, which
-        rapps that run anywhere do not mind
+        apps that run anywhere do not mind
     :param spec_index: `capabilities.discovery.SpecIndex` of the capabilities that the robot has
     :param defaults: mapping of names of interfaces to those of the providers to take for them
-    :param launch_files: `LaunchFiles`, to read each launch file once for several rapps
+    :param launch_files: `LaunchFiles`, to read each launch file once for several apps
     :param ignore: collection of str, the ids of the reasons to leave out, of `REASON_IDS`
+    :param robot_type: str, what the platform of an `AppFile` is compared with if it is not
+        registered; None for the robot's hardware_platform
     :returns: `Verdict`
     :raises RoconURIValueError: if the robot's URI is not legal
 
@@ -121,37 +138,38 @@ def runnable(rapp: Rapp, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
     >>> print(runnable(dance, 'rocon:/kobuki', SpecIndex(), ignore=['launch-missing']))
     ours/dance does not run: 'rocon:/pr2' does not include this robot: hardware_platform is kobuki
     """
-    if isinstance(robot_uri, str):
-        parse(robot_uri, Vocabulary.open())     # a fault in it is not the rapp's
+    # A fault in the robot's URI is not the app's.
+    robot = parse(robot_uri, Vocabulary.open()) if isinstance(robot_uri, str) else robot_uri
     launch_files = launch_files or LaunchFiles()
     plan = plan_for_capabilities(
-        spec_index, [capability.name for capability in rapp.required_capabilities], defaults,
+        spec_index, [capability.name for capability in app.required_capabilities], defaults,
         launch_files)
-    reasons = (*_platform_reasons(rapp, robot_uri), *_launch_reasons(rapp, launch_files),
-               *(Reason(ReasonKind.CAPABILITY if fault.is_of_the_capability else
-                        ReasonKind.DEPENDENCY, fault.kind.value, fault=fault)
-                 for fault in plan.faults))
-    return Verdict(rapp, tuple(reason for reason in reasons if reason.id not in ignore),
-                   tuple(plan.order))
+    own = (_rapp_reasons(app, robot_uri, launch_files) if isinstance(app, Rapp) else
+           _app_file_reasons(app, robot, robot_type, launch_files))
+    reasons = (*own, *(Reason(ReasonKind.CAPABILITY if fault.is_of_the_capability else
+                              ReasonKind.DEPENDENCY, fault.kind.value, fault=fault)
+                       for fault in plan.faults))
+    return Verdict(app, tuple(reason for reason in reasons if reason.id not in ignore), plan)
 
 
-def _launch_reasons(rapp: Rapp, launch_files: LaunchFiles) -> Iterator[Reason]:
+def _rapp_reasons(rapp: Rapp, robot: Union[str, RoconURI], launch_files: LaunchFiles
+                  ) -> Iterator[Reason]:
+    if not rapp.is_implementation:
+        lacks = ' and no '.join(key for key in ('compatibility', 'launch')
+                                if getattr(rapp, key) is None)
+        yield Reason(ReasonKind.VIRTUAL, 'virtual', 'it is virtual: it has no %s' % lacks)
+    if rapp.compatibility is not None:
+        yield from _platform_reasons(rapp.compatibility, robot)
     if rapp.launch is not None:
         fault = launch_files.look_at(rapp.launch, os.path.dirname(rapp.path)).fault
         if fault is not None:
             yield Reason(ReasonKind.LAUNCH, fault.kind, str(fault))
 
 
-def _platform_reasons(rapp: Rapp, robot_uri: Union[str, RoconURI]) -> Iterator[Reason]:
-    if not rapp.is_implementation:
-        lacks = ' and no '.join(key for key in ('compatibility', 'launch')
-                             if getattr(rapp, key) is None)
-        yield Reason(ReasonKind.VIRTUAL, 'virtual', 'it is virtual: it has no %s' % lacks)
-    if rapp.compatibility is None:
-        return
-    vocabulary = None if isinstance(robot_uri, str) else robot_uri.vocabulary
+def _platform_reasons(compatibility: str, robot: Union[str, RoconURI]) -> Iterator[Reason]:
+    vocabulary = None if isinstance(robot, str) else robot.vocabulary
     try:
-        explanation = explain(parse(rapp.compatibility, vocabulary), robot_uri)
+        explanation = explain(parse(compatibility, vocabulary), robot)
     except RoconURIValueError as error:
         yield Reason(ReasonKind.PLATFORM, 'platform', str(error))
         return
@@ -160,3 +178,23 @@ def _platform_reasons(rapp: Rapp, robot_uri: Union[str, RoconURI]) -> Iterator[R
                           for comparison in explanation.fields if not comparison.is_compatible)
         yield Reason(ReasonKind.PLATFORM, 'platform', "'%s' does not include this robot: %s" % (
             explanation.a.short, wrong), explanation)
+
+
+def _app_file_reasons(app: AppFile, robot: RoconURI, robot_type: Optional[str],
+                      launch_files: LaunchFiles) -> Iterator[Reason]:
+    if app.is_registered(robot.vocabulary):
+        yield from _platform_reasons(str(app.compatibility), robot)
+    else:       # app_manager knows no vocabulary, and compares texts
+        types = robot.hardware_platform.list if robot_type is None else [robot_type]
+        if app.platform not in types and types != ['*']:
+            yield Reason(ReasonKind.PLATFORM, 'platform', 'platform %s is not that of this robot, '
+                         '%s (compared as text, since %s is not registered)' % (
+                             quoted(app.platform), quoted('|'.join(types)), quoted(app.platform)))
+    for key, found in app.resources.items():
+        if found.kind is not None and key != 'icon':
+            yield Reason(ReasonKind.LAUNCH, '%s-%s' % (key, found.kind), '%s %s %s' % (
+                WHAT_RESOURCES_ARE[key], quoted(found.name), found.problem))
+        elif key == 'launch':
+            fault = launch_file_fault(found, launch_files)
+            if fault is not None:
+                yield Reason(ReasonKind.LAUNCH, fault.kind, str(fault))

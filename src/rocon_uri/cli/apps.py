@@ -4,26 +4,36 @@ List the apps that a robot can run, and why not the others.
 Examples:
   rocon_uri apps
   rocon_uri apps --robot rocon:/turtlebot2/bob/noetic/focal --all
-  rocon_uri apps --package-path ~/catkin_ws/src --defaults defaults.yaml
+  rocon_uri apps cafe_rapps/greet --robot rocon:/turtlebot2 --defaults defaults.yaml
   rocon_uri apps --all --ignore launch-missing
 
-Reads all rapps and capability specs that the packages below PATH export, and
-assumes that the robot has their providers. An app runs if the robot's URI is
-compatible with it, and if its launch file and all capabilities that it requires
-can be started. If several providers implement a capability, FILE says which to
-take: a YAML mapping from interfaces to providers, on its own or as "defaults".
-Each reason ends with its ID, which --ignore takes.
+Reads all rapps, all .app files of app_manager and all capability specs that the
+packages below PATH export, and assumes that the robot has their providers. An app
+runs if its platform includes the robot, and if its launch file and all capabilities
+that it requires can be started. If several providers implement a capability, FILE
+says which to take: a YAML mapping from interfaces to providers, on its own or as
+"defaults". A platform in a .app file that is not registered is compared with TYPE
+as text. Each reason ends with its ID, which --ignore takes.
 
-Exit status: 0 if an app runs; 1 if none does; 2 if the robot, a folder or a file
-was bad, though the rest is judged, even for a robot that is not registered
-JSON: {"robot": URI, "apps": [{"name", "display", "description", "compatibility",
-"file", "launch", "runs": BOOL, "virtual": BOOL, "providers": [NAME, ...],
-"running": {CAPABILITY: PROVIDER, ...},
+For each NAME prints whether the robot can run it, all that was judged, the
+providers that start for it, and the names in each capability: what the interface
+calls them, and what the robot and the app call them where that differs.
+
+Exit status: 0 if an app runs, or each NAME does; 1 if not; 2 if the robot, a NAME,
+a folder or the FILE was bad, though the rest is judged, even for a robot that is
+not registered. Files with faults are counted, and "rocon_uri specs check" shows
+what is wrong; they spoil no answer.
+JSON: {"robot": URI, "apps": [{"name", "form": "rapp" or "app", "display",
+"description", "compatibility", "platform", "file", "launch", "run", "runs": BOOL,
+"virtual": BOOL, "providers": [NAME, ...], "running": {CAPABILITY: PROVIDER, ...},
+"capabilities": [{"name", "provider", "names": [{"kind", "grouping", "name", "type",
+"robot_name", "app_name"}, ...]}, ...],
 "reasons": [{"kind", "text", "fields", "fault"}, ...]}, ...],
 "errors": [ERROR, ...]}
 with the ID of a reason as its kind, providers in the order in which to start
 them, fields as "rocon_uri check --help" describes them, and null for what does not
-exist; apps that do not run are included only with --all
+exist; apps that do not run are included only with --all or if they are named, and
+capabilities only if they are named
 """
 from __future__ import annotations
 
@@ -31,8 +41,10 @@ import argparse
 
 from rocon_uri.cli.display import fields_as_json, painter, print_json
 from rocon_uri.cli.given import GivenURI
-from rocon_uri.cli.packages import add_package_path, printable, shortened, workspace
+from rocon_uri.cli.packages import (
+    add_package_path, meant, mention_faults, printable, shortened, shown_path, workspace)
 from rocon_uri.cli.running import add_running, what_runs
+from rocon_uri.compatibility import LEGEND
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 from rocon_uri.platform import (
@@ -41,10 +53,11 @@ from rocon_uri.uri import parse
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, List, Optional
-    from rocon_uri.apps.runnable import Reason, Verdict
+    from typing import Any, Dict, List, Optional, Sequence
+    from rocon_uri.apps.runnable import App, Reason, Verdict
     from rocon_uri.cli.packages import PackageReport
     from rocon_uri.vocabulary import Vocabulary
+    from rocon_uri.workspace import Workspace
 
 __all__ = ['add_arguments', 'main']
 
@@ -52,8 +65,13 @@ _REASONS_SHOWN = 20     # of one app; a person has enough by then
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument('names', metavar='NAME', nargs='*',
+                        help='package/name of an app: all about it (default: the list of all)')
     parser.add_argument('--robot', metavar='URI',
                         help='what the robot is (default: this machine, as platform prints it)')
+    parser.add_argument('--robot-type', metavar='TYPE',
+                        help='what app_manager calls the robot, for platforms in .app files that '
+                             'are not registered (default: its hardware_platform)')
     add_package_path(parser)
     parser.add_argument('--all', action='store_true',
                         help='also the apps that it cannot run, and why')
@@ -78,24 +96,52 @@ def _reason_id(text: str) -> str:
 
 def main(args: argparse.Namespace) -> int:
     report, exported = workspace(args)
+    apps = _named(args.names, exported, report) if args.names else list(exported.apps())
+    mention_faults(args, report, exported, _asked_for(args.names, apps, exported))
     robot = _read_robot(args.robot, exported.vocabulary, report)
     defaults = _read_defaults(args.defaults, report)
-    if robot is None or defaults is None:
-        return report.status
     from rocon_uri.apps.rapps import runnable    # here, since it loads YAML
     running = what_runs(args, report)
-    verdicts = [runnable(rapp, robot.uri, exported.spec_index, defaults, exported.launch_files,
-                         args.ignore)
-                for rapp in exported.rapps.values()]
+    verdicts = [] if robot is None else [
+        runnable(app, robot.uri, exported.spec_index, defaults, exported.launch_files, args.ignore,
+                 args.robot_type)
+        for app in apps]
     if args.json:
-        print_json({'robot': robot.as_json(),
-                    'apps': [_as_json(verdict, running)
-                             for verdict in verdicts if verdict or args.all],
+        print_json({'robot': robot and robot.as_json(),
+                    'apps': [_as_json(verdict, running, exported if args.names else None)
+                             for verdict in verdicts if verdict or args.all or args.names],
                     'errors': report.errors})
-    else:
+    elif robot is not None and args.names:
+        from rocon_uri.cli.one_app import show_app
+        for index, verdict in enumerate(verdicts):
+            print('\n' * bool(index), end='')
+            show_app(verdict, robot.text, exported, running)
+    elif robot is not None:
         _show(robot, verdicts, args.all, running)
-    robot.mention_one_slash()
-    return report.status or (0 if any(verdicts) else 1)
+    if robot is not None:
+        robot.mention_one_slash()
+    return report.status or (0 if (all if args.names else any)(verdicts) else 1)
+
+
+def _named(names: Sequence[str], exported: Workspace, report: PackageReport) -> List[App]:
+    """The apps of these names, of which two may have one; a name that is not there is reported."""
+    apps = list(exported.apps())
+    for name in names:
+        if not any(app.name == name for app in apps):
+            suggestions = meant(name, {app.name: None for app in apps})
+            report.bad('no app has the name %s%s' % (quoted(name), did_you_mean(suggestions)),
+                       suggestions=suggestions)
+    return [app for name in dict.fromkeys(names) for app in apps if app.name == name]
+
+
+def _asked_for(names: Sequence[str], apps: Sequence[App], exported: Workspace) -> List[str]:
+    """What may be faulty of that which was asked for: apps, and the capabilities that they need."""
+    if not names:
+        return []
+    found = {app.name for app in apps}
+    return [name for name in names if name not in found] + [
+        needed.name for app in apps for needed in app.required_capabilities
+        if needed.name not in exported.capabilities]
 
 
 def _read_robot(text: Optional[str], vocabulary: Vocabulary,
@@ -113,8 +159,8 @@ def _read_robot(text: Optional[str], vocabulary: Vocabulary,
         return None
 
 
-def _read_defaults(path: Optional[str], report: PackageReport) -> Optional[Dict[str, str]]:
-    """The default providers by interface; None if the file is bad, which is reported."""
+def _read_defaults(path: Optional[str], report: PackageReport) -> Dict[str, str]:
+    """The default providers by interface; none if the file is bad, which is reported."""
     if path is None:
         return {}
     from rocon_uri.sources.checked import Reading   # these load YAML
@@ -128,7 +174,7 @@ def _read_defaults(path: Optional[str], report: PackageReport) -> Optional[Dict[
                 defaults.text_at(key, 'the default provider of %s') for key in defaults}
     except (OSError, YamlError) as error:
         report.bad_file(error)
-        return None
+        return {}
 
 
 def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool,
@@ -136,29 +182,33 @@ def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool,
     paint = painter()
     runs = [verdict for verdict in verdicts if verdict]
     virtual = [verdict for verdict in verdicts
-               if not verdict and not verdict.rapp.is_implementation]
-    others = [verdict for verdict in verdicts if not verdict and verdict.rapp.is_implementation]
-    width = max((len(printable(verdict.rapp.name)) for verdict in runs + others), default=0)
+               if not verdict and not verdict.app.is_implementation]
+    others = [verdict for verdict in verdicts if not verdict and verdict.app.is_implementation]
+    width = max((len(printable(verdict.app.name)) for verdict in runs + others), default=0)
     print('%s can run %d of %d apps%s' % (
         paint(printable(robot.text), 'bold'), len(runs), len(runs) + len(others),
         ':' if runs else ''))
     for verdict in runs:
-        print('  ' + _line(verdict, width, 'green'))
+        _show_line(verdict, width, 'green', show_all)
         if show_all and verdict.providers:
             print('      with %s' % ', '.join(verdict.providers))
         _show_running(verdict, running)
+    if others and not show_all:
+        print('cannot run %d: --all, or the NAME of one, shows why' % len(others))
     if show_all and others:
         print('and cannot run:')
         for verdict in others:
-            print('  ' + _line(verdict, width, 'red'))
+            _show_line(verdict, width, 'red', show_all)
             _show_running(verdict, running)
             for reason in verdict.reasons[:_REASONS_SHOWN]:
                 _show_reason(reason)
             if len(verdict.reasons) > _REASONS_SHOWN:
                 print('      and %d more' % (len(verdict.reasons) - _REASONS_SHOWN))
+        if any(reason.explanation is not None for verdict in others for reason in verdict.reasons):
+            print(paint('(%s)' % LEGEND, 'faint'))
     if show_all and virtual:
         print('Virtual, as parents of others: %s'
-              % ', '.join(printable(verdict.rapp.name) for verdict in virtual))
+              % ', '.join(printable(verdict.app.name) for verdict in virtual))
 
 
 def _show_running(verdict: Verdict, running: Optional[Dict[str, str]]) -> None:
@@ -171,34 +221,50 @@ def _running_of(verdict: Verdict, running: Optional[Dict[str, str]]
                 ) -> Optional[Dict[str, Optional[str]]]:
     """The provider that runs each capability of an app, None for none."""
     return None if running is None else {
-        needed.name: running.get(needed.name) for needed in verdict.rapp.required_capabilities}
+        needed.name: running.get(needed.name) for needed in verdict.app.required_capabilities}
 
 
-def _line(verdict: Verdict, width: int, style: str) -> str:
-    rapp = verdict.rapp
-    about = ': '.join(text for text in (rapp.display, rapp.description) if text)
-    name = printable(rapp.name)
-    return (painter()(name, style) + ' ' * (width - len(name) + 2) + shortened(about)).rstrip()
+def _show_line(verdict: Verdict, width: int, style: str, show_file: bool) -> None:
+    """Print the name of an app and what it is; its file too, if it is asked for or a .app."""
+    app, paint = verdict.app, painter()
+    name = printable(app.name)
+    about = shortened(': '.join(text for text in (app.display, app.description)
+                                if text and text != app.name))
+    if not show_file and app.form == 'app':
+        about = ('%s (%s)' % (about, shown_path(app.path))).lstrip()
+    print(('  ' + paint(name, style) + ' ' * (width - len(name) + 2) + about).rstrip())
+    if show_file:
+        print('      in ' + shown_path(app.path))
 
 
 def _show_reason(reason: Reason) -> None:
     print('      %s %s' % (printable(reason), painter()('[%s]' % reason.id, 'faint')))
     if reason.explanation is not None:
-        for line in str(reason.explanation).splitlines()[1:]:   # without the verdict
+        for line in str(reason.explanation).splitlines()[1:-1]:     # the table alone
             print('        ' + painter()(line, 'faint'))
 
 
-def _as_json(verdict: Verdict, running: Optional[Dict[str, str]]) -> Dict[str, Any]:
-    rapp = verdict.rapp
-    return {
-        'name': rapp.name, 'display': rapp.display, 'description': rapp.description,
-        'compatibility': rapp.compatibility, 'file': rapp.path,
-        'launch': rapp.files.get('launch'), 'runs': bool(verdict),
-        'virtual': not rapp.is_implementation, 'providers': list(verdict.providers),
-        'running': _running_of(verdict, running),
+def _as_json(verdict: Verdict, running: Optional[Dict[str, str]],
+             exported: Optional[Workspace]) -> Dict[str, Any]:
+    """An app; with its capabilities if it is said what is exported."""
+    app = verdict.app
+    answer: Dict[str, Any] = {
+        'name': app.name, 'form': app.form,
+        'display': app.display, 'description': app.description,
+        'compatibility': app.compatibility, 'platform': getattr(app, 'platform', None),
+        'file': app.path, 'launch': app.files.get('launch'), 'run': app.files.get('run'),
+        'runs': bool(verdict), 'virtual': not app.is_implementation,
+        'providers': list(verdict.providers), 'running': _running_of(verdict, running),
         'reasons': [{
             'kind': reason.id, 'text': str(reason),
             'fields': None if reason.explanation is None else fields_as_json(reason.explanation),
             'fault': None if reason.fault is None else reason.fault.to_dict(),
         } for reason in verdict.reasons],
     }
+    if exported is not None:
+        from rocon_uri.cli.one_app import seen_names
+        answer['capabilities'] = [{
+            'name': needed.name, 'provider': verdict.plan.providers.get(needed.name),
+            'names': [name._asdict() for name in seen_names(needed, verdict.plan, exported)],
+        } for needed in app.required_capabilities]
+    return answer

@@ -106,7 +106,7 @@ def _show(answer: Answer) -> None:
                                      _MEANINGS[answer.relation]))
     if answer.explanation is not None:
         for line in str(answer.explanation).splitlines()[1:]:   # without the verdict
-            print(paint(line, 'red') if line.startswith('x') else line)
+            print(paint(line, 'red') if line.startswith('. ') else line)
 
 
 def _print_json(answer: Answer, report: Report) -> None:

@@ -9,8 +9,8 @@ A FILE has one URI a line; blank lines and lines whose first character is # are
 skipped. Bad lines are reported with their number, and skipped. Standard input is -.
 Prints the compatible resources as written in FILE, one a line; if there are several
 requests, the app or the text of the request comes first. With --matrix prints every
-resource, after a column for each request: x for compatible, . for not compatible, ?
-for name patterns that are too complex to compare.
+resource, after a column for each request: x if it fits, . if it does not, ? for name
+patterns that are too complex to compare.
 
 Exit status: 0 if anything was found, 1 if nothing was, 2 if a request, a line or a
 file was bad or two name patterns were too complex to compare.
@@ -26,6 +26,7 @@ from itertools import chain
 from rocon_uri.cli.display import painter
 from rocon_uri.cli.given import Report, say
 from rocon_uri.cli.progress import beside_progress
+from rocon_uri.compatibility import LEGEND, MARKS, UNDECIDED
 from rocon_uri.exceptions import PatternTooComplex
 from rocon_uri.sources.wording import quoted
 from rocon_uri.resource_index import ResourceIndex
@@ -151,9 +152,11 @@ def _print_pairs(matches: Matches) -> None:
 
 def _print_matrix(matches: Matches) -> None:
     paint = painter()
+    print(paint(LEGEND + UNDECIDED, 'faint'))
     for index, request in enumerate(matches.requests):
         print('| ' * index + paint(request.label, 'bold'))
-    marks = {True: paint('x', 'green'), False: paint('.', 'faint'), None: paint('?', 'red')}
+    marks = {fits: paint(mark, style)
+             for (fits, mark), style in zip(MARKS.items(), ('green', 'faint', 'red'))}
     for resource, verdicts in matches:
         print('%s  %s' % (' '.join(marks[verdict] for verdict in verdicts), resource.text))
 

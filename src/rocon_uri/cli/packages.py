@@ -2,21 +2,24 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 
 from rocon_uri.cli.given import Report, say
 from rocon_uri.sources import wording
+from rocon_uri.sources.wording import near_misses
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import List, Optional, Sequence, Tuple
+    from typing import Collection, Iterable, List, Optional, Sequence, Tuple
 
     from rocon_uri.sources.located import Fault
     from rocon_uri.workspace import Workspace
 
-__all__ = ['PackageReport', 'add_package_path', 'escape_unencodable', 'package_path',
-           'printable', 'quiet_loggers', 'shortened', 'workspace']
+__all__ = ['PackageReport', 'add_package_path', 'escape_unencodable', 'meant', 'mention_faults',
+           'package_path', 'printable', 'quiet_loggers', 'shortened', 'shown_path',
+           'workspace']
 
 
 def add_package_path(parser: argparse.ArgumentParser) -> None:
@@ -36,6 +39,12 @@ def printable(text: object) -> str:
     return wording.printable(' '.join(str(text).split()))
 
 
+def shown_path(path: str) -> str:
+    """A path as a terminal shows it: relative, if it is below the working directory."""
+    relative = os.path.relpath(path)
+    return printable(path if relative.startswith(os.pardir) else relative)
+
+
 def shortened(text: str) -> str:
     """What is left of a description where there is one line for it."""
     line = printable(text)
@@ -53,20 +62,42 @@ class PackageReport(Report):
 
     def bad_file(self, fault: Fault) -> None:
         """Report what discovery or the reading of a file has found."""
-        if isinstance(fault, OSError):
-            file = os.fsdecode(fault.filename or '')
-            self.bad('%s: %s' % (printable(file), fault.strerror or fault), file)
-        else:
-            self.bad(str(fault), fault.file_name, fault.line)
+        self.bad(*fault_message(fault))
+
+    def keep(self, message: str, file: Optional[str] = None, line: Optional[int] = None) -> None:
+        """Keep what spoils no answer for JSON. Parameters as in `bad`."""
+        status = self.status
+        self.note(message, file, line)
+        self.status = status
 
 
-def package_path(args: argparse.Namespace, report: PackageReport,
+def fault_message(fault: Fault) -> Tuple[str, str, Optional[int]]:
+    """A fault as (message, file, line)."""
+    if isinstance(fault, OSError):
+        file = os.fsdecode(fault.filename or '')
+        return '%s: %s' % (printable(file), fault.strerror or fault), file, None
+    return str(fault), fault.file_name, fault.line
+
+
+def meant(name: str, names: Collection[str]) -> List[str]:
+    """The names that are like this one, as a whole or without the package."""
+    package, _, own_name = name.rpartition('/')
+    near = near_misses(own_name, {other.partition('/')[2] for other in names})
+    alike = [other for own in near for other in names if other.endswith('/' + own)]
+    if alike or any(other.startswith(package + '/') for other in names):
+        return alike[:3]
+    return near_misses(name, names)
+
+
+def package_path(args: argparse.Namespace, report: Optional[PackageReport] = None,
                  is_needed: bool = True) -> List[str]:
-    """The folders to look for packages in; bad ones are reported, and the lack of a needed one."""
+    """The folders to look for packages in; a report gets bad ones, and the lack of a needed one."""
     text = args.package_path
     if text is None:
         text = os.environ.get('ROS_PACKAGE_PATH', '')   # often names folders that do not exist
     folders = [folder for folder in text.split(os.pathsep) if folder]
+    if report is None:
+        return folders
     if is_needed and not folders:
         report.bad('no package path, expected ROS_PACKAGE_PATH or --package-path')
     if args.package_path is not None:
@@ -77,15 +108,47 @@ def package_path(args: argparse.Namespace, report: PackageReport,
 
 
 def workspace(args: argparse.Namespace) -> Tuple[PackageReport, Workspace]:
-    """All that the packages on the package path export, with a report of their faults."""
+    """All that the packages on the package path export, with a report that lacks their faults."""
     from rocon_uri.workspace import read_workspace  # here, since it loads catkin_pkg and YAML
     escape_unencodable()
     quiet_loggers()
     report = PackageReport(args.json)
-    found = read_workspace(package_path(args, report))
-    for fault in found.faults:
-        report.bad_file(fault)
-    return report, found
+    return report, read_workspace(package_path(args, report))
+
+
+def mention_faults(args: argparse.Namespace, report: PackageReport, exported: Workspace,
+                   names: Iterable[str] = ()) -> None:
+    """
+    Count the files with faults, which spoil no answer, and show the faults that are about it.
+
+    :param args: those of the verb, which took `add_package_path`
+    :param report: keeps all faults for JSON, and its status
+    :param exported: what `workspace` returned
+    :param names: iterable of str, ``package/name``: what was asked for
+    """
+    others = {}
+    for fault in exported.faults:
+        message, file, line = fault_message(fault)
+        report.keep(message, file, line)
+        if any(_may_define(name, file, exported) for name in names):
+            say(message)
+        else:
+            others[file] = fault
+    if others:
+        path = '' if args.package_path is None else ' --package-path ' + shlex.quote(
+            os.pathsep.join(package_path(args)))
+        say('%d %s: rocon_uri specs check%s' % (
+            len(others), 'file has faults' if len(others) == 1 else 'files have faults', path))
+
+
+def _may_define(name: str, file: str, exported: Workspace) -> bool:
+    """Can a file, which cannot be read, be that of an app or a spec of this name?"""
+    package, _, own_name = name.partition('/')
+    if package not in exported.packages or not file.startswith(
+            os.path.join(exported.packages[package].folder, '')):
+        return False
+    stem, extension = os.path.splitext(os.path.basename(file))
+    return stem == own_name or extension in ('.yaml', '.yml')
 
 
 def quiet_loggers() -> None:

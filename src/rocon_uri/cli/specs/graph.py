@@ -10,8 +10,8 @@ Blue boxes are interfaces, green ones semantic interfaces, yellow ellipses
 providers, the others apps (virtual ones dashed); what is named but does not exist
 is red. With --running, what runs has a thick green outline.
 
-Exit status: 0; 2 if the picture could not be made, or a folder or a file was bad,
-though the others are drawn
+Exit status: 0; 2 if the picture could not be made, or a folder was bad, though the
+others are drawn
 JSON: {"nodes": [{"id", "name", "kind", "running": BOOL}, ...], "edges":
 [{"from", "to", "kind", "preferred"}, ...], "errors": [ERROR, ...]}, beside the
 picture if there is a FILE; an id is the name, with a # before that of an app
@@ -23,7 +23,8 @@ import os
 import subprocess
 
 from rocon_uri.cli.display import print_json
-from rocon_uri.cli.packages import PackageReport, add_package_path, workspace
+from rocon_uri.cli.packages import (
+    PackageReport, add_package_path, mention_faults, workspace)
 from rocon_uri.cli.running import add_running, what_runs
 from rocon_uri.sources.wording import quoted_path
 
@@ -40,6 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     from rocon_uri.spec_graph import dot_text, spec_graph   # here, since the other verbs do not
     report, exported = workspace(args)
+    mention_faults(args, report, exported)
     graph = spec_graph(exported.spec_index, exported.rapps)
     running = what_runs(args, report) or {}
     text = dot_text(graph, {*running, *running.values()})

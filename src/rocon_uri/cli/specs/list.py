@@ -4,7 +4,7 @@ List capability interfaces, semantic interfaces and providers.
 Example:
   rocon_uri specs list --package-path ~/catkin_ws/src
 
-Exit status: 0; 2 if a folder or a file was bad, though the others are listed
+Exit status: 0; 2 if a folder was bad, though the others are listed
 JSON: {"specs": [{"name", "spec_type", "description", "file", "implements",
 "redefines"}, ...], "errors": [ERROR, ...]}, with null for
 what a spec does not have
@@ -14,7 +14,7 @@ from __future__ import annotations
 import argparse
 
 from rocon_uri.cli.display import painter, print_json
-from rocon_uri.cli.packages import add_package_path, shortened, workspace
+from rocon_uri.cli.packages import add_package_path, mention_faults, shortened, workspace
 
 __all__ = ['add_arguments', 'main']
 
@@ -25,6 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     report, exported = workspace(args)
+    mention_faults(args, report, exported)
     specs = {spec.name: {
         'name': spec.name, 'spec_type': spec.spec_type, 'description': spec.description,
         'file': spec.file_name, 'implements': getattr(spec, 'implements', None),

@@ -9,7 +9,7 @@ For an interface or a semantic interface prints the ROS names, as clients see th
 and the providers. For a provider prints what it implements, remaps and depends on,
 and the order in which to start providers.
 
-Exit status: 0; 2 if there is no spec NAME, or a folder or a file was bad
+Exit status: 0; 2 if there is no spec NAME that can be read, or a folder was bad
 JSON: {"spec": {...}, "spec_type", "file", "resolved": {...},
 "providers": [NAME, ...], "start_order": [NAME, ...], "faults": [TEXT, ...],
 "errors": [ERROR, ...]}; spec and resolved are as in the file of a spec; what does
@@ -18,13 +18,15 @@ not exist is null
 from __future__ import annotations
 
 from rocon_uri.cli.display import painter, print_json
-from rocon_uri.cli.packages import add_package_path, printable, workspace
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.cli.packages import (
+    add_package_path, meant, mention_faults, printable, workspace)
+from rocon_uri.cli.rows import print_names, print_rows
+from rocon_uri.sources.wording import did_you_mean, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Dict, Iterable, List, Optional, Tuple
+    from typing import Dict, List, Optional, Sequence, Tuple
 
     from capabilities.spec_index import Spec, SpecIndex
     from capabilities.specs.interface import CapabilityInterface
@@ -43,9 +45,10 @@ def main(args: argparse.Namespace) -> int:
     index = exported.spec_index
     spec = index.specs.get(args.name)
     if spec is None:
-        meant = _meant(args.name, index.names)
-        report.bad('no spec has the name %s%s' % (quoted(args.name), did_you_mean(meant)),
-                   suggestions=meant)
+        suggestions = meant(args.name, index.names)
+        report.bad('no spec has the name %s%s' % (quoted(args.name), did_you_mean(suggestions)),
+                   suggestions=suggestions)
+    mention_faults(args, report, exported, [] if spec else [args.name])
     shown = Shown(spec, index)
     if args.json:
         print_json({
@@ -57,16 +60,6 @@ def main(args: argparse.Namespace) -> int:
     elif spec is not None:
         _print(spec, shown)
     return report.status
-
-
-def _meant(name: str, names: List[str]) -> List[str]:
-    """The names that are like this one, as a whole or without the package."""
-    package, _, own_name = name.rpartition('/')
-    near = near_misses(own_name, {other.partition('/')[2] for other in names})
-    alike = [other for own in near for other in names if other.endswith('/' + own)]
-    if alike or any(other.startswith(package + '/') for other in names):
-        return alike[:3]
-    return near_misses(name, names)
 
 
 class Shown:
@@ -104,15 +97,15 @@ def _print(spec: Spec, shown: Shown) -> None:
     print('  in ' + printable(spec.file_name))
     if shown.provider is not None:
         _print_provider(shown.provider)
-        _print_names('to start, in this order', shown.start_order)
+        print_names('to start, in this order', shown.start_order)
     else:
         redefines = getattr(spec, 'redefines', None)
         if redefines is not None:
             print('redefines %s' % paint(redefines, 'cyan'))
         if shown.interface is not None:
             _print_interface(shown.interface)
-        _print_names('providers', shown.providers)
-    _print_names('faults', map(printable, shown.faults))
+        print_names('providers', shown.providers)
+    print_names('faults', map(printable, shown.faults))
 
 
 def _print_provider(spec: CapabilityProvider) -> None:
@@ -121,32 +114,19 @@ def _print_provider(spec: CapabilityProvider) -> None:
     for key in 'launch_file', 'nodelet_manager':
         if getattr(spec, key) is not None:
             print('%s %s' % (key, printable(getattr(spec, key))))
-    _print_names('depends on', (
+    print_names('depends on', (
         dependency.capability_name if dependency.preferred_provider is None
         else '%s by %s' % (dependency.capability_name, dependency.preferred_provider)
         for dependency in spec.dependencies.values()))
     for kind, new_names in spec.remappings_by_type.items():
-        _print_rows('remaps ' + kind, [(name, '->', new_name)
+        print_rows('remaps ' + kind, [(name, '->', new_name)
                                        for name, new_name in new_names.items()])
 
 
 def _print_interface(interface: CapabilityInterface) -> None:
-    rows: Dict[Tuple[str, Optional[str]], List[Tuple[str, ...]]] = {}
+    rows: Dict[Tuple[str, Optional[str]], List[Sequence[str]]] = {}
     for section, name, element, grouping in interface.elements():
         rows.setdefault((section, grouping), []).append((name, element.type or ''))
     for (section, grouping), named in rows.items():
-        _print_rows('%s %s' % (grouping, section) if grouping else section, named)
-    _print_names('dynamic_parameters', map(printable, interface.dynamic_parameters))
-
-
-def _print_names(heading: str, names: Iterable[str]) -> None:
-    _print_rows(heading, [(name,) for name in names])
-
-
-def _print_rows(heading: str, rows: List[Tuple[str, ...]]) -> None:
-    if rows:
-        print(painter()(heading, 'bold'))
-    cells = [tuple(map(printable, row)) for row in rows]
-    widths = [max(map(len, column)) for column in zip(*cells)]
-    for row in cells:
-        print('  ' + '  '.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())
+        print_rows('%s %s' % (grouping, section) if grouping else section, named)
+    print_names('dynamic_parameters', map(printable, interface.dynamic_parameters))

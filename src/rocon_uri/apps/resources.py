@@ -1,0 +1,153 @@
+"""
+Resource names, ``package/file``: the file is found anywhere in the package, as roslib finds it.
+
+>>> from rocon_uri.sources.packages import find_packages
+>>> resources = Resources(find_packages(['examples/workspace']))
+>>> resources.find('cafe_rapps/radio.launch').problem is None
+True
+>>> print(resources.find('cafe_rapps/raido.launch').problem)
+does not exist: package 'cafe_rapps' has no file 'raido.launch' (did you mean \
+'cafe_rapps/radio.launch'?)
+"""
+from __future__ import annotations
+
+import os
+import stat
+from typing import Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple
+
+from rocon_uri.sources.packages import Package
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+
+__all__ = ['AMBIGUOUS', 'MISSING', 'Resource', 'Resources']
+
+#: the kinds of faults: no file has the name
+MISSING = 'missing'
+#: several files of the package have it
+AMBIGUOUS = 'ambiguous'
+
+_MAX_NAMES = 200    # of files with one extension; among more no near miss is looked for
+
+
+class Resource(NamedTuple):
+    """
+    What a resource name stands for.
+
+    >>> Resource('ours/dance.launch', '/src/ours/dance.launch').kind is None
+    True
+    """
+
+    #: ``package/file``, as it is written
+    name: str
+    #: the file; None where there is none, or several
+    path: Optional[str] = None
+    #: `MISSING` or `AMBIGUOUS`; None where there is exactly one file
+    kind: Optional[str] = None
+    #: what is wrong, without the name; None where nothing is
+    problem: Optional[str] = None
+
+
+class Resources:
+    """
+    The files of packages. The folder of each is walked once, when it is first asked for.
+
+    :param packages: mapping of `rocon_uri.sources.packages.Package` by name
+    """
+
+    def __init__(self, packages: Mapping[str, Package]) -> None:
+        self._packages = packages
+        self._files: Dict[str, Dict[str, List[str]]] = {}
+
+    def find(self, name: str, extension: str = '') -> Resource:
+        """
+        The file of a name.
+
+        :param str name: ``package/file``
+        :param str extension: what the name of the file has, and ``name`` has not
+        :returns: `Resource`; it raises nothing
+        """
+        return self._find(name, lambda package, file: self._files_of(package.folder).get(file, []),
+                          extension)
+
+    def find_executable(self, name: str) -> Resource:
+        """
+        The program of a name: what is built or installed, else a file of the package.
+
+        :param str name: ``package/program``
+        :returns: `Resource`; it raises nothing
+        """
+        found = self._find(name, self._programs)
+        return found if found.path is None or _is_executable(found.path) else Resource(
+            name, None, MISSING, 'is not executable')
+
+    def _find(self, name: str, files: Callable[[Package, str], List[str]],
+              extension: str = '') -> Resource:
+        package_name, slash, file = name.partition('/')
+        if not package_name or not file or '/' in file:
+            return Resource(name, None, MISSING, 'is not of the form package/file')
+        package = self._packages.get(package_name)
+        if package is None:
+            return Resource(name, None, MISSING, 'does not exist: there is no package %s%s' % (
+                quoted(package_name), did_you_mean(near_misses(package_name, self._packages))))
+        paths = files(package, file + extension)
+        if len(paths) == 1:
+            return Resource(name, paths[0])
+        if paths:
+            return Resource(name, None, AMBIGUOUS, 'is ambiguous: package %s has %s' % (
+                quoted(package_name), ' and '.join(
+                    quoted(os.path.relpath(path, package.folder)) for path in paths[:3])))
+        return Resource(name, None, MISSING, 'does not exist: package %s has no file %s%s' % (
+            quoted(package_name), quoted(file + extension),
+            did_you_mean(self._alike(package, file, extension))))
+
+    def _programs(self, package: Package, file: str) -> List[str]:
+        beside = [os.path.dirname(os.path.dirname(package.folder))]     # of PREFIX/share/package
+        prefixes = os.environ.get('CMAKE_PREFIX_PATH', '').split(os.pathsep)
+        for prefix in filter(None, beside + prefixes):
+            path = os.path.join(prefix, 'lib', package.name, file)
+            if os.path.isfile(path):
+                return [path]
+        found = self._files_of(package.folder).get(file, [])
+        return list(filter(_is_executable, found)) or found
+
+    def _alike(self, package: Package, file: str, extension: str) -> List[str]:
+        stem, own_extension = os.path.splitext(file + extension)
+        stems = {os.path.splitext(other)[0] for other in self._files_of(package.folder)
+                 if other.endswith(own_extension)}
+        near = near_misses(stem, stems) if len(stems) <= _MAX_NAMES else []
+        return ['%s/%s%s' % (package.name, other, '' if extension else own_extension)
+                for other in near]
+
+    def _files_of(self, folder: str) -> Dict[str, List[str]]:
+        """The paths below the folder of a package by the name of the file."""
+        files = self._files.get(folder)
+        if files is None:
+            files = self._files[folder] = {}
+            for path in _files_below(folder):
+                files.setdefault(os.path.basename(path), []).append(path)
+        return files
+
+
+def _files_below(folder: str) -> Iterator[str]:
+    """All files, but for hidden folders; links are followed, and a folder is visited once."""
+    visited = set()
+    for path, folders, files in os.walk(folder, followlinks=True):
+        here: Tuple[int, int] = (0, 0)
+        try:
+            status = os.stat(path)
+            here = status.st_dev, status.st_ino
+        except OSError:     # it has gone
+            pass
+        if here in visited:
+            folders[:] = []
+            continue
+        visited.add(here)
+        folders[:] = sorted(name for name in folders if not name.startswith('.'))
+        yield from (os.path.join(path, name) for name in sorted(files))
+
+
+def _is_executable(path: str) -> bool:
+    try:
+        mode = os.stat(path).st_mode
+    except OSError:
+        return False
+    return mode & (stat.S_IRUSR | stat.S_IXUSR) == stat.S_IRUSR | stat.S_IXUSR
