@@ -12,7 +12,7 @@ from capabilities.spec_index import SpecIndex
 from rocon_uri import Vocabulary, parse
 from rocon_uri.apps.app_file import AppFile, InvalidApp, app_from_string
 from rocon_uri.apps.installed import app_files_from_package_index, installed_files
-from rocon_uri.apps.resources import AMBIGUOUS, MISSING, Resources
+from rocon_uri.sources.resources import AMBIGUOUS, MISSING, Resources
 from rocon_uri.apps.runnable import REASON_IDS, runnable
 from rocon_uri.cli import main
 from rocon_uri.sources.packages import find_packages

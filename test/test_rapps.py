@@ -17,6 +17,7 @@ from capabilities.discovery import (
     spec_index_from_spec_file_index,
 )
 from capabilities.planning.faults import FaultKind
+from capabilities.spec_index import SpecIndex
 from rocon_uri import RoconURIValueError, Vocabulary, parse
 from rocon_uri.apps.rapps import (
     InvalidRapp, ReasonKind, rapp_from_string, rapps_from_package_index, runnable, with_inheritance)
@@ -421,3 +422,32 @@ def test_without_one_package_of_the_corpus_the_rest_is_still_judged():
     assert [(reason.fault.kind, reason.fault.capability) for reason in verdict.reasons] == [
         (FaultKind.NO_INTERFACE, 'std_capabilities/DifferentialMobileBase')]
     assert runnable(rapps['kobuki_rapps/auto_docking'], ROBOT, index, ignore=elsewhere)
+
+
+# Names of files that are no paths
+
+@pytest.mark.parametrize('launch, what, meant', [
+    ('ours/dance.launch', 'is a resource name', 'dance.launch'),
+    ('ours/walk.launch', 'is a resource name', '../../launch/walk.launch'),
+    ('$(find ours)/launch/walk.launch', 'is written with $(find)', '../../launch/walk.launch'),
+    ('$(find  ours )/walk.launch', 'is written with $(find)', '../../launch/walk.launch'),
+    ('package://ours/rapps/dance/dance.launch', 'is a package:// URL', 'dance.launch'),
+    ('ours/gone.launch', 'is a resource name', None),
+    ('theirs/walk.launch', 'is a resource name', None),
+    ('$(find theirs)/walk.launch', 'is written with $(find)', None),
+    ('gone/walk.launch', None, None),
+    ('gone/launch/walk.launch', None, None),
+    ('ours/launch/walk.launch', 'begins with the name of a package', '../../launch/walk.launch'),
+    ('theirs/launch/walk.launch', 'begins with the name of a package', None),
+])
+def test_what_was_meant_by_a_name_that_is_no_path(tmp_path, launch, what, meant):
+    make_package(tmp_path, 'theirs')
+    folder = make_package(tmp_path, 'ours', rapps__dance__dance_launch='<launch/>',
+                          launch__walk_launch='<launch/>')
+    rapp = rapp_from_string('{compatibility: "rocon:/", launch: "%s"}' % launch, 'ours/dance',
+                            str(folder / 'rapps' / 'dance' / 'dance.rapp'))
+    [reason] = runnable(rapp, 'rocon:/pr2', SpecIndex()).reasons
+    problem = ('does not exist' if what is None else
+               what + ', expected a path relative to the file that names it')
+    assert (reason.id, str(reason)) == ('launch-missing', "launch file '%s' %s%s" % (
+        launch, problem, " (did you mean '%s'?)" % meant if meant else ''))

@@ -20,7 +20,7 @@ from typing import Dict, NamedTuple, Optional, Tuple, Union
 
 from capabilities.specs.common import InvalidSpec
 from rocon_uri.apps.rapp import RequiredCapability
-from rocon_uri.apps.resources import Resource, Resources
+from rocon_uri.sources.resources import Resource, Resources
 from rocon_uri.sources.checked import CheckedMapping, Reading
 from rocon_uri.sources.launch_file import LaunchFault, LaunchFiles
 from rocon_uri.sources.located import Place

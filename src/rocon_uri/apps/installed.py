@@ -21,7 +21,7 @@ import os
 from typing import Dict, List, Mapping, Tuple
 
 from rocon_uri.apps.app_file import AppFile, InvalidApp, app_from_file_path
-from rocon_uri.apps.resources import Resources
+from rocon_uri.sources.resources import Resources
 from rocon_uri.sources.checked import Reading
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.packages import Package

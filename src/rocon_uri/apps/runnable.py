@@ -16,7 +16,7 @@ from capabilities.planning.providers import plan_for_capabilities
 from capabilities.spec_index import SpecIndex
 from rocon_uri.apps.app_file import WHAT_RESOURCES_ARE, AppFile, launch_file_fault
 from rocon_uri.apps.rapp import Rapp
-from rocon_uri.apps.resources import AMBIGUOUS, MISSING
+from rocon_uri.sources.resources import AMBIGUOUS, MISSING
 from rocon_uri.compatibility import Explanation, explain
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.sources.launch_file import LaunchFiles

@@ -19,10 +19,11 @@ from __future__ import annotations
 import os
 import stat
 import threading
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Callable, Dict, List, NamedTuple, NoReturn, Optional, Tuple
 from xml.parsers import expat
 
+from rocon_uri.sources.resources import not_a_path
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 from rocon_uri.sources.yaml_data import MAX_SIZE
 from rocon_uri.sources.yaml_source import read_file
@@ -197,10 +198,12 @@ def _read(name: str, folder: str) -> LaunchFile:
         names_nodelet_manager = any(argument in content for argument in _NODELET_MANAGER)
         _check_xml(content)
     except _Refused as refused:
-        is_missing = refused.kind == MISSING
-        real_path = None if is_missing else real_path
-        fault = LaunchFault(refused.kind, refused.problem, name, path, *refused.place,
-                            _alternatives(name, folder, package) if is_missing else ())
+        fault = LaunchFault(refused.kind, refused.problem, name, path, *refused.place)
+        if refused.kind == MISSING:
+            real_path = None
+            problem, alternatives = not_a_path(name, folder, package) or (
+                refused.problem, _alternatives(name, folder, package))
+            fault = replace(fault, problem=problem, alternatives=alternatives)
     except OSError as error:
         problem = 'cannot be read: %s' % (error.strerror or error)
         fault = LaunchFault(UNREADABLE, problem, name, path)

@@ -12,13 +12,15 @@ does not exist: package 'cafe_rapps' has no file 'raido.launch' (did you mean \
 from __future__ import annotations
 
 import os
+import re
 import stat
 from typing import Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple
 
-from rocon_uri.sources.packages import Package
+from rocon_uri.sources.packages import (
+    MANIFEST, Package, PackageError, package_from_manifest)
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
-__all__ = ['AMBIGUOUS', 'MISSING', 'Resource', 'Resources']
+__all__ = ['AMBIGUOUS', 'MISSING', 'NotAPath', 'Resource', 'Resources', 'not_a_path']
 
 #: the kinds of faults: no file has the name
 MISSING = 'missing'
@@ -125,6 +127,67 @@ class Resources:
             for path in _files_below(folder):
                 files.setdefault(os.path.basename(path), []).append(path)
         return files
+
+
+class NotAPath(NamedTuple):
+    """What stands where a path is expected, and is another name of a file."""
+
+    #: what is wrong, without the name
+    problem: str
+    #: the paths of the files that have the name, relative to the folder that paths are relative to
+    paths: Tuple[str, ...]
+
+
+_OTHER_NAMES = (    # and what they are called
+    (re.compile(r'\$\(find\s+([^\s)]+)\s*\)/+(.+)').fullmatch, 'is written with $(find)'),
+    (re.compile(r'package://([^/]+)/+(.+)').fullmatch, 'is a package:// URL'),
+    (re.compile(r'([A-Za-z0-9][A-Za-z0-9_-]*)/([^/]+)').fullmatch, 'is a resource name'),
+    (re.compile(r'([A-Za-z0-9][A-Za-z0-9_-]*)/(.+)').fullmatch,
+     'begins with the name of a package'),
+)
+
+
+def not_a_path(name: str, folder: str, package_folder: Optional[str]) -> Optional[NotAPath]:
+    """
+    What is wrong with the name of a file that is not there, if it is not meant as a path.
+
+    :param str name: what was written: ``package/file``, as in rapps before 2014,
+        ``$(find package)/path`` or ``package://package/path``
+    :param str folder: what a path would be relative to
+    :param package_folder: str, the folder of the package of the file that says it; None if it is in
+        no package
+    :returns: `NotAPath`, or None for what may be a path
+
+    >>> folder = 'examples/workspace/cafe_rapps/rapps/radio'
+    >>> not_a_path('cafe_rapps/radio.launch', folder, 'examples/workspace/cafe_rapps')
+    NotAPath(problem='is a resource name, expected a path relative to the file that names it', \
+paths=('radio.launch',))
+    >>> not_a_path('launch/radio.launch', folder, 'examples/workspace/cafe_rapps')
+    """
+    if package_folder is None:
+        return None
+    try:
+        own_name = package_from_manifest(os.path.join(package_folder, MANIFEST)).name
+    except PackageError:
+        own_name = os.path.basename(package_folder)
+    for match, what in _OTHER_NAMES:
+        found = match(name)
+        if found is None:
+            continue
+        package, file = found.groups()
+        beside = os.path.join(os.path.dirname(os.path.abspath(package_folder)), package, MANIFEST)
+        if name.startswith(('$', 'package://')) or package == own_name or os.path.isfile(beside):
+            paths = _named(file, package_folder) if package == own_name else []
+            return NotAPath(what + ', expected a path relative to the file that names it',
+                            tuple(os.path.relpath(path, folder) for path in paths[:3]))
+    return None
+
+
+def _named(file: str, package_folder: str) -> List[str]:
+    """The files of a package that a path in it, or a name alone, stands for."""
+    path = os.path.join(package_folder, file)
+    return [path] if os.path.isfile(path) else [
+        path for path in _files_below(package_folder) if os.path.basename(path) == file]
 
 
 def _files_below(folder: str) -> Iterator[str]:
