@@ -50,10 +50,10 @@ def dance(workspace, text='compatibility: rocon:/kobuki\nlaunch: dance.launch\n'
 
 def test_what_runs_is_listed_and_nothing_else(apps):
     assert apps('--robot', ROBOT, '--package-path', EXAMPLES) == (0, [
-        ROBOT + ' can run 2 of 6 apps:',
+        ROBOT + ' can run 2 of 7 apps:',
         '  cafe_rapps/patrol         Patrol: Looks at every table and says which ones are dirty',
         '  cafe_rapps/radio          Radio: Plays music',
-        'cannot run 4: --all, or the NAME of one, shows why'], '')
+        'cannot run 5: --all, or the NAME of one, shows why'], '')
 
 
 def test_all_says_what_does_not_run_and_why(apps):
@@ -96,12 +96,13 @@ def test_bad_defaults_are_an_error_and_all_else_is_judged(apps, tmp_path, conten
         path.write_text(content)
     status, lines, err = apps('--robot', ROBOT, '--package-path', EXAMPLES, '--defaults', path)
     assert status == 2 and error in err and str(path) in err
-    assert lines[0] == ROBOT + ' can run 2 of 6 apps:'
+    assert lines[0] == ROBOT + ' can run 2 of 7 apps:'
 
 
 def test_a_robot_that_another_package_registers_runs_its_apps(apps):
     status, lines, err = apps('--robot', 'rocon:/cafe_cart/trolley', '--package-path', EXAMPLES)
     assert (status, err) == (0, '') and '  cafe_cart/carry ' in '\n'.join(lines)
+    assert [line for line in lines if line.startswith('  cafe_cart/ring   ')]
 
 
 def test_nothing_that_runs_is_status_1(apps, tmp_path):
@@ -141,9 +142,9 @@ def test_a_bad_robot_is_an_error(apps):
 def test_a_robot_that_is_not_registered_is_an_error_and_gets_what_runs_anywhere(apps):
     status, lines, err = apps('--robot', 'rocon:/turtelbot2/bob', '--package-path', EXAMPLES)
     assert status == 2 and "did you mean 'turtlebot2'" in err
-    assert lines == ['rocon:/turtelbot2/bob can run 1 of 6 apps:',
+    assert lines == ['rocon:/turtelbot2/bob can run 1 of 7 apps:',
                      '  cafe_rapps/radio          Radio: Plays music',
-                     'cannot run 5: --all, or the NAME of one, shows why']
+                     'cannot run 6: --all, or the NAME of one, shows why']
 
 
 def test_a_robot_with_one_slash_too_many_is_mentioned(apps):
@@ -203,7 +204,7 @@ def test_json_has_what_runs_and_with_all_the_reasons(apps_json):
 
     status, answer = apps_json('--robot', ROBOT, '--package-path', EXAMPLES, '--all')
     reasons = {app['name']: app['reasons'] for app in answer['apps']}
-    assert len(reasons) == 7
+    assert len(reasons) == 8
     assert [reason['kind'] for reason in reasons['cafe_rapps/serve']] == ['no-provider']
     assert reasons['cafe_rapps/serve'][0]['fault']['capability'] == 'cafe_capabilities/Lift'
     assert reasons['cafe_rapps/greet'][0]['fault']['kind'] == 'ambiguous'
