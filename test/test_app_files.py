@@ -215,6 +215,9 @@ def test_a_platform_is_a_value_or_compared_as_text(
      "'launch/dance.launch'"),
     ('launch: ours/bad.launch', {'bad_launch': '<launch>'}, 'launch-not-xml',
      "launch file 'ours/bad.launch' is not XML: no element found (line 1, column 9)"),
+    ('launch: ours/dance.launch\nicon: ours/a.png', {'a__a_png': '', 'b__a_png': ''},
+     'icon-ambiguous', "icon 'ours/a.png' is ambiguous: package 'ours' has 'a/a.png' and "
+     "'b/a.png'"),
     ('run: ours/walk', {}, 'run-missing',
      "executable 'ours/walk' does not exist: package 'ours' has no file 'walk'"),
     ('run: ours/walk_py', {'walk_py': ''}, 'run-missing', None),

@@ -49,7 +49,7 @@ class ReasonKind(Enum):
 REASON_IDS: Tuple[str, ...] = (ReasonKind.VIRTUAL.value, ReasonKind.PLATFORM.value,
                                *(kind.value for kind in FaultKind
                                  if kind is not FaultKind.NO_NODELET_MANAGER),
-                               'launch-ambiguous',
+                               'launch-ambiguous', 'icon-ambiguous',
                                *('%s-%s' % (key, kind) for key in ('run', 'interface')
                                  for kind in (MISSING, AMBIGUOUS)))
 
@@ -191,7 +191,7 @@ def _app_file_reasons(app: AppFile, robot: RoconURI, robot_type: Optional[str],
                          '%s (compared as text, since %s is not registered)' % (
                              quoted(app.platform), quoted('|'.join(types)), quoted(app.platform)))
     for key, found in app.resources.items():
-        if found.kind is not None and key != 'icon':
+        if found.kind is not None and (key != 'icon' or found.kind == AMBIGUOUS):
             yield Reason(ReasonKind.LAUNCH, '%s-%s' % (key, found.kind), '%s %s %s' % (
                 WHAT_RESOURCES_ARE[key], quoted(found.name), found.problem))
         elif key == 'launch':
