@@ -5,5 +5,6 @@ from setuptools import find_packages, setup
 setup(**generate_distutils_setup(
     packages=find_packages('src'),
     package_dir={'': 'src'},
-    package_data={'': ['py.typed', '*/*.json'], 'capabilities': ['*.launch', 'placeholder']},
+    package_data={'': ['py.typed', '*/*.json', '*/*.yaml'],
+                  'capabilities': ['*.launch', 'placeholder']},
 ))

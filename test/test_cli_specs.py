@@ -65,8 +65,8 @@ def test_json_is_asked_for_before_or_after_the_verb(specs, arguments):
     assert json.loads(out)['errors'] == []
 
 
-@pytest.mark.parametrize('arguments', [('list',), ('show', 'a/b'), ('check',), ('graph',)])
-def test_all_need_a_package_path(specs, arguments):
+@pytest.mark.parametrize('arguments', [('list',), ('show', 'a/b'), ('graph',)])
+def test_all_but_check_need_a_package_path(specs, arguments):
     status, _, err = specs(*arguments)
     assert status == 2 and 'expected ROS_PACKAGE_PATH or --package-path' in err
 
@@ -166,11 +166,11 @@ def test_check_ends_with_1_for_errors_not_for_warnings(specs, tmp_path, monkeypa
         "bad/dance.rapp:1:1: warning: unknown key 'colour' in the rapp (expected display, ")
 
 
-def test_check_without_a_path_checks_the_package_path(specs, tmp_path, monkeypatch):
+def test_check_without_a_path_checks_the_working_directory(specs, tmp_path, monkeypatch):
     bad_package(tmp_path)
-    assert specs('check', '--package-path', tmp_path)[0] == 1
-    monkeypatch.setenv('ROS_PACKAGE_PATH', str(tmp_path))
-    assert specs('check')[0] == 1
+    monkeypatch.chdir(tmp_path)
+    status, out, err = specs('check')
+    assert (status, out.count('\n')) == (1, 2) and err.endswith(' in 1 package\n')
 
 
 def test_check_of_a_path_takes_the_package_path_for_what_is_around(specs, monkeypatch):
@@ -181,11 +181,10 @@ def test_check_of_a_path_takes_the_package_path_for_what_is_around(specs, monkey
 
 
 @pytest.mark.parametrize('name, problem', [
-    ('gone', 'is not a directory'), ('empty', 'has no package in it'),
-    ('file', 'is not a directory')])
+    ('gone', 'is not a file, a directory or a package on the package path'),
+    ('empty', 'has no package in it')])
 def test_check_of_a_bad_path_is_2_whatever_else_was_found(specs, tmp_path, name, problem):
     (tmp_path / 'empty').mkdir()
-    (tmp_path / 'file').write_text('')
     bad_package(tmp_path / 'good')
     status, out, err = specs('check', tmp_path / name, tmp_path / 'good')
     assert status == 2 and "%s' %s" % (name, problem) in err and out.count('\n') == 2
@@ -205,7 +204,7 @@ def test_check_as_json(specs, tmp_path, monkeypatch):
     assert status == 1 and answer['packages'] == ['bad'] and answer['errors'] == []
     assert answer['findings'][1] == {
         'file': 'bad/dance.rapp', 'line': 2, 'column': 7, 'severity': 'error',
-        'text': "icon '../../x.png' is outside the package"}
+        'id': 'file-outside', 'text': "icon '../../x.png' is outside the package"}
 
 
 def test_check_for_github(specs, tmp_path, monkeypatch):
@@ -213,7 +212,7 @@ def test_check_for_github(specs, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     status, out, _ = specs('check', '.', '--format', 'github')
     assert status == 1
-    assert out.splitlines()[1] == ('::error file=bad/dance.rapp,line=2,col=7'
+    assert out.splitlines()[1] == ('::error file=bad/dance.rapp,line=2,col=7,title=file-outside'
                                    "::icon '../../x.png' is outside the package")
 
 
@@ -225,7 +224,9 @@ def test_check_writes_a_report_for_catkin(specs, tmp_path, monkeypatch, warning_
     monkeypatch.chdir(tmp_path)
     specs('check', '.', '--junit', 'results/bad/check.xml')
     suite = ElementTree.parse(str(tmp_path / 'results/bad/check.xml')).getroot()
-    assert (suite.get('tests'), suite.get('failures'), suite.get('errors')) == ('1', failures, '0')
+    assert (suite.get('tests'), suite.get('failures'), suite.get('errors')) == ('2', failures, '0')
+    assert [case.get('name') for case in suite] == ['bad/dance.rapp', 'bad/package.xml']
+    assert all(float(case.get('time')) >= 0 for case in suite)
     assert "unknown key 'colour' in the rapp" in suite.find('testcase/' + element).text
 
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 
 import pytest
 from hypothesis import given, settings
@@ -39,9 +40,10 @@ launch: dance.launch
 
 
 def findings_in(workspace, monkeypatch, *package_path):
-    """What is found in a workspace, as lines with paths relative to it."""
+    """What is found in a workspace, as lines with paths relative to it and without the ids."""
     monkeypatch.chdir(workspace)
-    return [str(finding) for finding in check_packages(['.'], package_path)]
+    return [str(finding)[:-len(' [%s]' % finding.id)]
+            for finding in check_packages(['.'], package_path)]
 
 
 def found(tmp_path, monkeypatch, exports=(), **files):
@@ -68,6 +70,12 @@ def test_the_workspaces_of_this_repository_are_clean(folder):
 @needs_corpus
 def test_in_the_corpus_only_what_is_really_wrong_is_found():
     findings = check_packages([CORPUS])
+    assert Counter((finding.severity, finding.id) for finding in findings) == {
+        (ERROR, 'launch-missing'): 15,      # the corpus holds no launch files and no icons
+        (WARNING, 'file-missing'): 9,
+        (ERROR, 'unknown-provider'): 2,
+        (WARNING, 'unknown-name'): 1,
+        (WARNING, 'duplicate-key'): 1}
     others = [finding for finding in findings if not finding.problem.endswith('does not exist')]
     assert [(finding.severity, finding.line, finding.column) for finding in others] == [
         (WARNING, 18, 9),       # a description that is there twice
@@ -137,7 +145,8 @@ def test_an_export_names_a_file_of_the_package(tmp_path, monkeypatch, export, fi
     manifest = (folder / 'package.xml').read_text()
     (folder / 'package.xml').write_text(
         manifest.replace('<export>\n\n', '<export>\n    %s\n' % export))
-    lines = [line for line in findings_in(tmp_path, monkeypatch) if 'package.xml' in line]
+    lines = [line for line in findings_in(tmp_path, monkeypatch)
+             if line.startswith('ours/package.xml')]
     assert lines == ([] if finding is None else ['ours/package.xml:' + finding])
 
 
@@ -556,18 +565,27 @@ def test_whatever_files_say_the_linter_answers(package, data):
 # Findings
 
 def test_findings_are_told_in_three_forms():
-    finding = Finding('a.rapp', 3, 9, ERROR, 'no')
-    assert str(finding) == 'a.rapp:3:9: error: no'
+    finding = Finding('a.rapp', 3, 9, ERROR, 'no', 'cycle')
+    assert str(finding) == 'a.rapp:3:9: error: no [cycle]'
     assert finding.as_json() == {'file': 'a.rapp', 'line': 3, 'column': 9, 'severity': 'error',
-                                 'text': 'no'}
-    assert finding.as_github() == '::error file=a.rapp,line=3,col=9::no'
-    nowhere = Finding('a.rapp', None, None, WARNING, 'no')
-    assert (str(nowhere), nowhere.as_github()) == ('a.rapp: warning: no',
-                                                   '::warning file=a.rapp::no')
+                                 'id': 'cycle', 'text': 'no'}
+    assert finding.as_github() == '::error file=a.rapp,line=3,col=9,title=cycle::no'
+    nowhere = Finding('a.rapp', None, None, WARNING, 'no', 'cycle')
+    assert (str(nowhere), nowhere.as_github()) == ('a.rapp: warning: no [cycle]',
+                                                   '::warning file=a.rapp,title=cycle::no')
 
 
 def test_github_gets_no_command_from_a_file():
-    finding = Finding('a:b,c%\n::error::x', 1, 1, WARNING, '100%\r\n::set-output name=x::y')
+    finding = Finding('a:b,c%\n::error::x', 1, 1, WARNING, '100%\r\n::set-output name=x::y',
+                      'cycle')
     assert finding.as_github() == ('::warning file=a%3Ab%2Cc%25%0A%3A%3Aerror%3A%3Ax,line=1,col=1'
-                                   '::100%25%0D%0A::set-output name=x::y')
+                                   ',title=cycle::100%25%0D%0A::set-output name=x::y')
     assert '\n' not in str(finding)
+
+
+@pytest.mark.parametrize('path, line', [
+    ('::error ::x.rapp', './::error ::x.rapp:1:1: error: no [cycle]'),
+    (' ::error ::x.rapp', './ ::error ::x.rapp:1:1: error: no [cycle]'),
+    ('a::b.rapp', 'a::b.rapp:1:1: error: no [cycle]')])
+def test_a_path_is_no_command_in_the_log_of_a_github_workflow(path, line):
+    assert str(Finding(path, 1, 1, ERROR, 'no', 'cycle')) == line

@@ -11,7 +11,7 @@ It is usually made by `capabilities.discovery.spec_index_from_spec_file_index`.
 from __future__ import annotations
 
 from capabilities.specs.common import InvalidSpec
-from rocon_uri.sources.located import LocatedError
+from rocon_uri.sources.located import LocatedError, with_id
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted, quoted_path
 from rocon_uri.sources.yaml_data import value_place
 
@@ -51,6 +51,8 @@ class DuplicateNameException(_RefusedSpec):
     ``'semantic_interface'`` or ``'provider'``).
     """
 
+    id = 'duplicate-name'
+
 
 class InterfaceNameNotFoundException(_RefusedSpec):
     """
@@ -59,6 +61,8 @@ class InterfaceNameNotFoundException(_RefusedSpec):
     Attributes: those of `DuplicateNameException`, and ``interface`` (str), the name that it
     redefines or implements.
     """
+
+    id = 'no-interface'
 
     def __init__(self, problem: str, file_name: str, line: Optional[int], column: Optional[int],
                  spec_name: str, package: str, spec_type: str, interface: str,
@@ -225,8 +229,8 @@ class SpecIndex:
         package, _, own_name = spec.name.rpartition('/')
         place = value_place(spec.source, 'name')
         if package not in ('', package_name):
-            raise InvalidSpec('name %s is not of package %s, which exports it' % (
-                quoted(spec.name), quoted(package_name)), str(file_path), *place)
+            raise with_id(InvalidSpec('name %s is not of package %s, which exports it' % (
+                quoted(spec.name), quoted(package_name)), str(file_path), *place), 'illegal-name')
         name = '%s/%s' % (package_name, own_name)
         for kind, entries in (('an interface', self._interfaces),
                               ('a semantic interface', self._semantic_interfaces),

@@ -201,6 +201,7 @@ def _with_rules_files(vocabulary: Vocabulary, paths: Iterable[str],
                       ) -> Tuple[Vocabulary, List[Fault]]:
     """One new vocabulary for all files without a fault, and the faults of the others."""
     from rocon_uri.exported_rules import read_rules_file
+    from rocon_uri.sources.located import with_id
     from rocon_uri.sources.yaml_data import YamlError, place_below
     fields = vocabulary._fields
     faults: List[Fault] = []
@@ -210,7 +211,8 @@ def _with_rules_files(vocabulary: Vocabulary, paths: Iterable[str],
             try:
                 fields = _extended(fields, rules)
             except RulesError as error:
-                raise YamlError(error.problem, path, *place_below(rules, error.path)) from None
+                raise with_id(YamlError(error.problem, path, *place_below(rules, error.path)),
+                              'invalid-rules') from None
         except (OSError, YamlError) as error:
             faults.append(error)
     if all(fields[name] is field for name, field in vocabulary._fields.items()):

@@ -6,7 +6,7 @@ from typing import IO, Callable, Generic, List, Mapping, Sequence, TypeVar, Unio
 
 from capabilities.specs.common import CapabilitySpec, InvalidSpec, SpecName, SpecWarning
 from rocon_uri.sources.checked import Reading
-from rocon_uri.sources.located import NOWHERE, Place
+from rocon_uri.sources.located import Place
 from rocon_uri.sources.ros_names import is_legal_base_name
 from rocon_uri.sources.wording import shown
 from rocon_uri.sources.yaml_data import MAX_SIZE
@@ -41,13 +41,14 @@ class SpecReading(Reading):
         self.name = self.required_text('name')
         if not _is_name(self.name):
             raise self.fault('name %s is not legal, expected a letter, then letters, digits and '
-                             'underscores' % shown(self.name), spec.value_place('name'))
+                             'underscores' % shown(self.name), spec.value_place('name'),
+                             'illegal-name')
         self.description = spec.text('description', may_be_empty=True)
         spec.warn_of_unknown(self.keys)
 
-    def warn(self, problem: str, place: Place = NOWHERE) -> None:
+    def warn(self, problem: str, place: Place, fault_id: str) -> None:
         """Note something odd, which is logged if the spec can be read."""
-        self.warnings.append(SpecWarning(problem, self.file_name, *place))
+        self.warnings.append(SpecWarning(problem, self.file_name, *place, fault_id))
 
     def has_room(self) -> bool:
         """Is a further unknown key noted?"""

@@ -53,6 +53,8 @@ class SpecWarning(Located):
     line: Optional[int] = None
     #: counted from 1, or None
     column: Optional[int] = None
+    #: the kind of fault
+    id: str = 'unknown-key'
 
 
 class SpecName(str):

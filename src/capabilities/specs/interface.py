@@ -129,15 +129,15 @@ def _read_element(interface: Interface, section: str, elements: CheckedMapping, 
     if element_type is None:
         near = near_misses(name, GROUPINGS) if grouping is None else []
         raise elements.reading.fault('%s has no type%s' % (element.title, did_you_mean(near)),
-                                     elements.key_place(name))
+                                     elements.key_place(name), 'missing-key')
     element.warn_of_unknown(_ELEMENT_KEYS)
     description = element.text('description', may_be_empty=True)
     try:
         interface.add_element(
             section, name, InterfaceElement(name, kind, element_type, description), grouping)
     except RuntimeError:
-        raise elements.reading.fault('duplicate ' + element.title,
-                                     elements.key_place(name)) from None
+        raise elements.reading.fault('duplicate ' + element.title, elements.key_place(name),
+                                     'duplicate-key') from None
 
 
 def _read_dynamic_parameters(interface: Interface, sections: CheckedMapping) -> None:
@@ -149,8 +149,8 @@ def _read_dynamic_parameters(interface: Interface, sections: CheckedMapping) -> 
         try:
             interface.add_dynamic_parameter(name)
         except RuntimeError:
-            raise sections.reading.fault('duplicate dynamic_parameter ' + shown(name),
-                                         place) from None
+            raise sections.reading.fault('duplicate dynamic_parameter ' + shown(name), place,
+                                         'duplicate-key') from None
 
 
 _loader = SpecLoader('interface', ('interface',), InvalidInterface, _make)

@@ -176,7 +176,7 @@ def _add_dependency(reading: SpecReading, provider: CapabilityProvider, given: o
                     preferred_provider: Optional[str] = None) -> None:
     name = reading.spec_name(given, place, 'depends_on')
     if provider.depends_on(name):
-        raise reading.fault('duplicate dependency %s' % shown(name), place)
+        raise reading.fault('duplicate dependency %s' % shown(name), place, 'duplicate-key')
     provider.add_depends_on(name, preferred_provider)
 
 

@@ -108,11 +108,14 @@ def read_remappings(reading: SpecReading, spec: RemappingSpec) -> None:
             try:
                 spec.add_remapping(kind, name, new_names.text_at(key, 'the new name of %s'))
             except RuntimeError as error:
-                raise reading.fault(str(error), new_names.key_place(key)) from None
+                raise reading.fault(
+                    str(error), new_names.key_place(key), 'duplicate-key') from None
         for name, lost, place in getattr(new_names.data, 'repeated', ()):
             if lost != new_names.get(name):
-                raise reading.fault(_two_names(name, lost, new_names.get(name)), place)
-            reading.warn('duplicate key %s, remapped to the same name' % shown(name), place)
+                raise reading.fault(_two_names(name, lost, new_names.get(name)), place,
+                                    'duplicate-key')
+            reading.warn('duplicate key %s, remapped to the same name' % shown(name), place,
+                         'duplicate-key')
 
 
 def _two_names(name: str, new_name: object, other: object) -> str:

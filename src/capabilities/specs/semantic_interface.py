@@ -24,6 +24,7 @@ from capabilities.specs._reading import SpecLoader, SpecReading
 from capabilities.specs.common import InvalidSpec
 from capabilities.specs.interface import CapabilityInterface, InterfaceElement
 from capabilities.specs.remappings import RemappingSpec, read_remappings
+from rocon_uri.sources.located import with_id
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 from rocon_uri.sources.yaml_data import key_place, value_place
 
@@ -98,12 +99,12 @@ class SemanticCapabilityInterface(RemappingSpec):
             if old_name != name:
                 problem = '%s and %s of %s both come out as %s' % (
                     quoted(old_name), quoted(name), section, quoted(new_name))
-                raise self._error(section, [name, old_name], problem)
+                raise self._error(section, [name, old_name], problem, 'remapping-collision')
             renamed = InterfaceElement(new_name, element.kind, element.type, element.description)
             try:
                 resolved.add_element(section, new_name, renamed, grouping)
             except ValueError as error:     # the new name is that of a grouping
-                raise self._error(section, [name], str(error)) from None
+                raise self._error(section, [name], str(error), 'remapping-collision') from None
         for dynamic_parameter in interface.dynamic_parameters:
             resolved.add_dynamic_parameter(dynamic_parameter)
         return resolved
@@ -134,16 +135,17 @@ class SemanticCapabilityInterface(RemappingSpec):
                     problem = '%s has no %s in %s to remap%s' % (
                         quoted(interface.name), quoted(name), section,
                         did_you_mean(near_misses(name, names[section])))
-                    raise self._error(section, [name], problem)
+                    raise self._error(section, [name], problem, 'unknown-name')
 
-    def _error(self, section: str, names: Sequence[str], problem: str) -> InvalidSemanticInterface:
+    def _error(self, section: str, names: Sequence[str], problem: str, fault_id: str
+               ) -> InvalidSemanticInterface:
         """The error of these names, with the place of the first remapping, or of the namespace."""
         source = self.source or {}
         new_names = (source.get('remappings') or {}).get(section) or {}
         place = next((key_place(new_names, name) for name in names if name in new_names),
                      value_place(source, 'global_namespace'))
         file_name = '<%s>' % self.name if self.file_name is None else self.file_name
-        return InvalidSemanticInterface(problem, file_name, *place)
+        return with_id(InvalidSemanticInterface(problem, file_name, *place), fault_id)
 
 
 def _make(reading: SpecReading) -> SemanticCapabilityInterface:

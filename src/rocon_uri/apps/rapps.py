@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Dict, Iterable, List, Mapping, Optional, Tuple
 from rocon_uri.apps.rapp import (
     InvalidRapp, Rapp, RequiredCapability, rapp_from_file_path, rapp_from_string)
 from rocon_uri.apps.runnable import Reason, ReasonKind, Verdict, runnable
+from rocon_uri.sources.located import with_id
 from rocon_uri.sources.packages import Package, as_package
 from rocon_uri.sources.wording import (
     did_you_mean, near_names, quoted, quoted_path)
@@ -97,12 +98,13 @@ def rapps_from_rapp_file_index(
                 rapp = rapp_from_file_path(path, rapp_name(package, path))
                 first = rapps.setdefault(rapp.name, rapp)
                 if first is not rapp:
-                    errors.append(InvalidRapp('duplicate rapp %s, the first is in %s' % (
-                        quoted(rapp.name), quoted_path(first.path)), path))
+                    errors.append(with_id(InvalidRapp('duplicate rapp %s, the first is in %s' % (
+                        quoted(rapp.name), quoted_path(first.path)), path), 'duplicate-name'))
             except InvalidRapp as error:
                 errors.append(error)
             except OSError as error:
-                errors.append(InvalidRapp('cannot be read: %s' % (error.strerror or error), path))
+                errors.append(with_id(InvalidRapp('cannot be read: %s' % (
+                    error.strerror or error), path), 'cannot-read'))
     return rapps, errors
 
 
@@ -143,14 +145,14 @@ def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[Inval
 
 def _missing_parent_error(rapp: Rapp, by_name: Mapping[str, Rapp]) -> InvalidRapp:
     parent_name = rapp.parent_name or ''
-    return InvalidRapp('parent_name %s does not exist or cannot be read%s' % (
+    return with_id(InvalidRapp('parent_name %s does not exist or cannot be read%s' % (
         quoted(parent_name), did_you_mean(near_names(parent_name, by_name))),
-        rapp.path, *rapp.position('parent_name'))
+        rapp.path, *rapp.position('parent_name')), 'unknown-app')
 
 
 def _cycle_error(rapp: Rapp, ancestors: List[str]) -> InvalidRapp:
     if len(ancestors) > 5:
         ancestors[5:] = ['...']
-    return InvalidRapp('rapp %s is its own ancestor: %s' % (
+    return with_id(InvalidRapp('rapp %s is its own ancestor: %s' % (
         quoted(rapp.name), ' -> '.join([rapp.name, *ancestors, rapp.name])),
-        rapp.path, *rapp.position('parent_name'))
+        rapp.path, *rapp.position('parent_name')), 'ancestor-cycle')

@@ -11,15 +11,16 @@ if TYPE_CHECKING:
 
 __all__ = ['fields_as_json', 'painter', 'print_json']
 
-_CODES = {'bold': '1', 'faint': '2', 'red': '31', 'green': '32', 'cyan': '36'}
+_CODES = {'bold': '1', 'faint': '2', 'red': '31', 'green': '32', 'yellow': '33',
+          'cyan': '36'}
 
 
 def painter() -> Callable[[str, str], str]:
     """
     A function that colours text if standard output is a terminal, and else leaves it alone.
 
-    :returns: callable that takes the text and ``'bold'``, ``'faint'``, ``'red'``, ``'green'`` or
-        ``'cyan'``, and returns the text to print; https://no-color.org is respected
+    :returns: callable that takes the text and ``'bold'``, ``'faint'``, ``'red'``, ``'green'``,
+        ``'yellow'`` or ``'cyan'``, and returns the text to print; https://no-color.org is respected
     """
     if (sys.stdout.isatty() and not os.environ.get('NO_COLOR')
             and os.environ.get('TERM') != 'dumb'):

@@ -24,9 +24,9 @@ __all__ = ['PackageReport', 'add_package_path', 'escape_unencodable', 'meant', '
 
 def add_package_path(parser: argparse.ArgumentParser) -> None:
     """Let a verb take ``--package-path``."""
-    parser.add_argument('--package-path', metavar='PATH',
-                        help='folders with packages below them, %s between (default: '
-                        'ROS_PACKAGE_PATH)' % os.pathsep)
+    parser.add_argument('--package-path', metavar='PATH', action='append',
+                        help='folders with packages below them, %s between; several add up '
+                        '(default: ROS_PACKAGE_PATH)' % os.pathsep)
 
 
 def printable(text: object) -> str:
@@ -92,9 +92,10 @@ def meant(name: str, names: Collection[str]) -> List[str]:
 def package_path(args: argparse.Namespace, report: Optional[PackageReport] = None,
                  is_needed: bool = True) -> List[str]:
     """The folders to look for packages in; a report gets bad ones, and the lack of a needed one."""
-    text = args.package_path
-    if text is None:
+    if args.package_path is None:
         text = os.environ.get('ROS_PACKAGE_PATH', '')   # often names folders that do not exist
+    else:
+        text = os.pathsep.join(args.package_path)
     folders = [folder for folder in text.split(os.pathsep) if folder]
     if report is None:
         return folders

@@ -56,22 +56,22 @@ class CheckedFile(Reading):
         self.findings: List[Finding] = []
         self._lines: Optional[List[str]] = None
 
-    def add(self, severity: str, problem: str, place: Place = NOWHERE) -> None:
+    def add(self, severity: str, problem: str, place: Place, fault_id: str) -> None:
         """Note a finding with a severity, `ERROR` or `WARNING`."""
         self.findings.append(Finding(file_name=self.path, line=place[0], column=place[1],
-                                     severity=severity, problem=problem))
+                                     severity=severity, problem=problem, id=fault_id))
 
-    def error(self, problem: str, place: Place = NOWHERE) -> None:
+    def error(self, problem: str, place: Place, fault_id: str) -> None:
         """Note what will not work, or not as the file says."""
-        self.add(ERROR, problem, place)
+        self.add(ERROR, problem, place, fault_id)
 
-    def warn(self, problem: str, place: Place = NOWHERE) -> None:
+    def warn(self, problem: str, place: Place, fault_id: str) -> None:
         """Note what works, but is probably not what was meant."""
-        self.add(WARNING, problem, place)
+        self.add(WARNING, problem, place, fault_id)
 
     def refuse(self, fault: LocatedError) -> None:
         """Note a fault as an error."""
-        self.error(fault.problem, fault.place)
+        self.error(fault.problem, fault.place, fault.id)
 
     def expectation(self, found: object, known: Sequence[str]) -> str:
         """The end of an error: what was expected. It is empty after many findings."""
@@ -82,14 +82,15 @@ class CheckedFile(Reading):
         try:
             content = read_file(self.path)
         except OSError as error:
-            self.error('cannot be read: %s' % (error.strerror or error))
+            self.error('cannot be read: %s' % (error.strerror or error), NOWHERE, 'cannot-read')
             return None
         return self.data(content)
 
     def check_ros_name(self, name: str, what: str, place: Place) -> None:
         """Check that the ROS graph allows the name of a topic, a service or the like."""
         if not name or not is_legal_name(name):
-            self.error('%s %s is not a legal ROS name' % (what, quoted(name)), place)
+            self.error('%s %s is not a legal ROS name' % (what, quoted(name)), place,
+                       'illegal-name')
 
     def check_type(self, type_name: str, what: str, place: Place) -> None:
         """Check that the type of a topic, a service or an action is written package/Type."""
@@ -98,7 +99,8 @@ class CheckedFile(Reading):
             is_of_ros_2 = len(parts) == 3 and parts[1] in ('msg', 'srv', 'action')
             self.error('type %s of %s is not of the form package/Type%s' % (
                 quoted(type_name), what,
-                did_you_mean(['%s/%s' % (parts[0], parts[2])] if is_of_ros_2 else [])), place)
+                did_you_mean(['%s/%s' % (parts[0], parts[2])] if is_of_ros_2 else [])), place,
+                'illegal-type')
 
     def check_file(self, name: str, what: str, place: Place, *folders: str,
                    if_missing: str = ERROR) -> Optional[str]:
@@ -115,9 +117,11 @@ class CheckedFile(Reading):
         if inside:
             is_there = any(map(os.path.exists, inside))
             self.add(if_missing, '%s %s %s' % (
-                what, quoted(name), 'is not a file' if is_there else 'does not exist'), place)
+                what, quoted(name), 'is not a file' if is_there else 'does not exist'), place,
+                'file-missing')
         else:
-            self.error('%s %s is outside the package' % (what, quoted(name)), place)
+            self.error('%s %s is outside the package' % (what, quoted(name)), place,
+                       'file-outside')
         return None
 
     def check_launch_file(self, name: str, place: Place, launch_files: LaunchFiles,
@@ -131,17 +135,18 @@ class CheckedFile(Reading):
         fault = launch_files.look_at(name, os.path.dirname(os.path.abspath(self.path))).fault
         if fault is not None and fault.line is not None:
             self.findings.append(Finding(os.path.normpath(fault.path), fault.line, fault.column,
-                                         ERROR, 'launch file %s' % fault.problem))
+                                         ERROR, 'launch file %s' % fault.problem, fault.kind))
         elif fault is not None:
             is_in_package = fault.kind == MISSING and os.path.isfile(
                 os.path.join(self.package_folder, name))
-            self.add(if_in_package if is_in_package else ERROR, str(fault), place)
+            self.add(if_in_package if is_in_package else ERROR, str(fault), place, fault.kind)
 
-    def check_exists(self, name: str, what: str, known: Mapping[str, object], place: Place) -> bool:
+    def check_exists(self, name: str, what: str, known: Mapping[str, object], place: Place,
+                     fault_id: str) -> bool:
         """Check that what this file names, ``package/name``, exists; return whether it does."""
         if name not in known:
             self.error('%s %s does not exist%s' % (
-                what, quoted(name), self._suggestion(name, known, near_names)), place)
+                what, quoted(name), self._suggestion(name, known, near_names)), place, fault_id)
         return name in known
 
     def check_remapped_names(self, kind: str, new_names: CheckedMapping,
@@ -159,7 +164,7 @@ class CheckedFile(Reading):
                 is_below = name.rpartition('/')[0] in names
                 self.add(WARNING if is_below else ERROR, '%s has no %s in %s to remap%s' % (
                     quoted(interface.name), quoted(name), kind,
-                    self._suggestion(name, names)), new_names.key_place(name))
+                    self._suggestion(name, names)), new_names.key_place(name), 'unknown-name')
             self.check_ros_name(new_names.get(name), 'new name', new_names.value_place(name))
 
     def check_compatibility(self, text: str, vocabulary: Vocabulary, place: Place) -> None:
@@ -170,12 +175,12 @@ class CheckedFile(Reading):
             hint = did_you_mean(error.suggestions) if self._has_few_findings() else ''
             self.error('compatibility: %s%s%s' % (
                 error.problem, hint, '; ' + error.advice if error.advice else ''),
-                self._place_in_text(text, error.span[0], place))
+                self._place_in_text(text, error.span[0], place), 'invalid-uri')
             return
         if uri.read_with_one_slash:
             self.warn('compatibility: %s is read as %s, since %s is a hardware_platform, not a '
                       'concert' % (quoted(text), quoted(uri.short), uri.hardware_platform),
-                      self._place_in_text(text, 0, place))
+                      self._place_in_text(text, 0, place), 'one-slash')
 
     def _suggestion(self, text: str, candidates: Iterable[str],
                     find: Callable[[str, Iterable[str]], List[str]] = near_misses) -> str:

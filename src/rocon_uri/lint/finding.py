@@ -2,12 +2,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Union
-from xml.sax.saxutils import escape, quoteattr
+from typing import Dict, Optional, Union
 
-from rocon_uri.sources.located import Located
+from rocon_uri.sources.located import Located, located
 
-__all__ = ['ERROR', 'WARNING', 'Finding', 'junit_text']
+__all__ = ['ERROR', 'WARNING', 'Finding']
 
 #: It does not work, or not as the file says.
 ERROR = 'error'
@@ -20,8 +19,8 @@ class Finding(Located):
     """
     A fault that the linter has found.
 
-    >>> print(Finding('dance.rapp', 3, 9, ERROR, "launch file 'dance.lanch' does not exist"))
-    dance.rapp:3:9: error: launch file 'dance.lanch' does not exist
+    >>> print(Finding('dance.rapp', 3, 9, ERROR, "icon 'dnace.png' does not exist", 'file-missing'))
+    dance.rapp:3:9: error: icon 'dnace.png' does not exist [file-missing]
     """
 
     #: the file
@@ -34,20 +33,28 @@ class Finding(Located):
     severity: str
     #: one sentence without the place
     problem: str
+    #: which kind of fault it is, one of those in `rocon_uri.lint.explanations`
+    id: str
 
     @property
     def sentence(self) -> str:
-        """The problem after its severity."""
-        return '%s: %s' % (self.severity, self.problem)
+        """The problem between its severity and its id."""
+        return '%s: %s [%s]' % (self.severity, self.problem, self.id)
+
+    def __str__(self) -> str:
+        # GitHub takes a line of a log that begins with :: for a command.
+        path = './' + self.file_name if self.file_name.lstrip().startswith('::') else self.file_name
+        return located(self.sentence, path, self.line, self.column)
 
     def as_github(self) -> str:
         """
         The finding as a workflow command of GitHub, which shows it beside the line.
 
-        >>> print(Finding('a,b.rapp', 3, 9, ERROR, '50% of it: no').as_github())
-        ::error file=a%2Cb.rapp,line=3,col=9::50%25 of it: no
+        >>> print(Finding('a,b.rapp', 3, 9, ERROR, '50% of it: no', 'cycle').as_github())
+        ::error file=a%2Cb.rapp,line=3,col=9,title=cycle::50%25 of it: no
         """
-        properties = [('file', self.file_name), ('line', self.line), ('col', self.column)]
+        properties = [('file', self.file_name), ('line', self.line), ('col', self.column),
+                      ('title', self.id)]
         return '::%s %s::%s' % (
             self.severity,
             ','.join('%s=%s' % (name, _escaped(str(value), '%\r\n:,'))
@@ -58,38 +65,10 @@ class Finding(Located):
         """
         The finding as plain data.
 
-        :returns: dict with ``file``, ``line``, ``column``, ``severity`` and ``text``
+        :returns: dict with ``file``, ``line``, ``column``, ``severity``, ``id`` and ``text``
         """
         return {'file': self.file_name, 'line': self.line, 'column': self.column,
-                'severity': self.severity, 'text': self.problem}
-
-
-def junit_text(name: str, findings: List[Finding]) -> str:
-    """
-    An XML report of one test, in the form of JUnit. The test fails if a finding is an error.
-
-    :param str name: what was checked
-
-    >>> print(junit_text('ours', [Finding('a.rapp', 3, 9, ERROR, 'no <launch> file')]))
-    <?xml version="1.0" encoding="utf-8"?>
-    <testsuite name="rocon_uri_check" tests="1" failures="1" errors="0" time="0">
-    <testcase classname="rocon_uri_check" name="ours" time="0">
-    <failure message="1 error" type="error">a.rapp:3:9: error: no &lt;launch&gt; file</failure>
-    </testcase>
-    </testsuite>
-    """
-    errors = sum(finding.severity == ERROR for finding in findings)
-    lines = ['<?xml version="1.0" encoding="utf-8"?>',
-             '<testsuite name="rocon_uri_check" tests="1" failures="%d" errors="0" time="0">'
-             % bool(errors),
-             '<testcase classname="rocon_uri_check" name=%s time="0">' % quoteattr(name)]
-    text = escape('\n'.join(map(str, findings)))
-    if errors:
-        lines.append('<failure message="%d error%s" type="error">%s</failure>' % (
-            errors, '' if errors == 1 else 's', text))
-    elif findings:
-        lines.append('<system-out>%s</system-out>' % text)
-    return '\n'.join(lines + ['</testcase>', '</testsuite>'])
+                'severity': self.severity, 'id': self.id, 'text': self.problem}
 
 
 def _escaped(text: str, characters: str) -> str:

@@ -1,39 +1,157 @@
 """Checks a ``package.xml`` that names its package, and its exports."""
 from __future__ import annotations
 
-from typing import List
+from typing import Dict, List, NamedTuple, Sequence
+from xml.parsers import expat
 
 from capabilities.discovery import EXPORTS, catkin_package
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import Finding
-from rocon_uri.sources.packages import Package, PackageError
-from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.located import Place
+from rocon_uri.sources.packages import Export, Package, PackageError, read_manifest
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
-__all__ = ['check_manifest']
+__all__ = ['FILE_EXPORTS', 'check_manifest']
 
-_FILE_EXPORTS = EXPORTS + ('rocon_app',)    # those whose text is the path of a file
+#: the tags of exports whose text is the path of a file
+FILE_EXPORTS = EXPORTS + ('rocon_app',)
+
+_ATTRIBUTES = {'rocon_uri': 'rules', 'app_manager': 'app_dir'}  # of exports that have one, no text
+_TAGS = (*FILE_EXPORTS, *_ATTRIBUTES)
+_DEPENDENCIES = ('depend', 'build_depend', 'build_export_depend', 'exec_depend', 'run_depend')
 
 
 def check_manifest(package: Package) -> List[Finding]:
     """
-    Check that catkin accepts a package, and that each exported file exists and is exported once.
+    Check that catkin accepts a package, and that its exports are seen and name files that exist.
 
     :returns: list of `Finding`
     """
     file = CheckedFile(package.manifest, package.folder)
+    elements = _elements(package.manifest)
     try:
         catkin_package(package.manifest)
     except PackageError as error:
-        file.error(error.problem, (error.line, error.column))
+        place = _place(error.problem, elements) if error.line is None else error.place
+        file.error(error.problem, place, error.id)
     seen = set()
     for export in package.exports:
-        name = export.file('rules' if export.tag == 'rocon_uri' else '')
-        if export.tag not in _FILE_EXPORTS and not (export.tag == 'rocon_uri' and name):
-            continue
         place = export.line, export.column
+        if export.tag not in _TAGS:
+            near = _near_tags(export.tag)
+            if near:
+                file.warn('unknown export %s, which nobody sees%s' % (
+                    quoted('<%s>' % export.tag), did_you_mean(near)), place, 'unknown-export')
+            continue
+        _check_attributes(export, file)
+        name = export.file('rules' if export.tag == 'rocon_uri' else '')
+        if export.tag not in FILE_EXPORTS and not (export.tag == 'rocon_uri' and name):
+            continue
         exported = file.check_file(name, 'exported file', place, package.folder)
         if exported in seen:
-            file.error('%s is exported twice' % quoted(name), place)
+            file.error('%s is exported twice' % quoted(name), place, 'duplicate-export')
         elif exported is not None:
             seen.add(exported)
+    _check_app_manager(package, elements, file)
     return file.findings
+
+
+def _near_tags(tag: str) -> List[str]:
+    """The exports that were probably meant; other tools' tags, like velocity_interface, are not."""
+    plain = tag.lower().replace('-', '_')
+    if plain in _TAGS:
+        return [plain]
+    near = near_misses(tag, _TAGS)
+    return [other for other in near if abs(len(other) - len(tag)) <= 2 and other[0] == tag[0]]
+
+
+def _check_attributes(export: Export, file: CheckedFile) -> None:
+    """Check that an export names what it names in the way in which it is looked for."""
+    place = export.line, export.column
+    expected = _ATTRIBUTES.get(export.tag)
+    for attribute in export.attributes:
+        if attribute != expected:
+            file.warn('%s has an unknown attribute %s%s' % (
+                quoted('<%s>' % export.tag), quoted(attribute),
+                ', expected its path as text' if expected is None else
+                ', expected %s' % quoted(expected)), place, 'export-attribute')
+    if expected is not None and export.text:
+        file.warn('%s has text, which nobody sees (expected %s)' % (
+            quoted('<%s>' % export.tag), quoted('<%s %s="%s"/>' % (
+                export.tag, expected, export.text))), place, 'export-attribute')
+    elif expected is not None and not export.attributes:
+        file.warn('%s has no attribute %s' % (quoted('<%s>' % export.tag), quoted(expected)),
+                  place, 'export-attribute')
+
+
+class _Element(NamedTuple):
+    """One element directly in a manifest."""
+
+    #: its name
+    tag: str
+    #: its attributes
+    attributes: Dict[str, str]
+    #: the texts in it, in pieces
+    text: List[str]
+    #: where it begins, counted from 1
+    place: Place
+
+
+def _elements(path: str) -> List[_Element]:
+    """The root and the elements directly in it; none where the file cannot be read again."""
+    elements: List[_Element] = []
+    parser = expat.ParserCreate('utf-8')
+    depth = [0]
+
+    def start(tag: str, attributes: Dict[str, str]) -> None:
+        depth[0] += 1
+        if depth[0] <= 2:
+            place = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
+            elements.append(_Element(tag, attributes, [], place))
+
+    def end(_: str) -> None:
+        depth[0] -= 1
+
+    def text(data: str) -> None:
+        if depth[0] == 2:
+            elements[-1].text.append(data)
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.CharacterDataHandler = text
+    try:
+        parser.Parse(read_manifest(path), True)
+    except (PackageError, expat.ExpatError):    # it has changed
+        pass
+    return elements
+
+
+def _place(problem: str, elements: Sequence[_Element]) -> Place:
+    """The place of the element that catkin_pkg, which gives none, quotes or else names."""
+    listed = problem.partition('following tags: ')[2].partition(' - ')[0].split(', ')
+
+    def likeness(element: _Element) -> int:
+        text = ''.join(element.text).strip()
+        if element.tag != 'name' and any(
+                value and (repr(value) in problem or '"%s"' % value in problem)
+                for value in (text, *element.attributes.values())):
+            return 4
+        if '"%s"' % element.tag in problem or element.tag in listed:
+            return 3
+        if element is elements[0] or element.tag not in problem.lower():
+            return 0
+        return 1 + (not text or ('email' in problem and not element.attributes))
+
+    best = max(elements, key=likeness, default=None)
+    if best is None:
+        return 1, 1
+    return best.place if likeness(best) else elements[0].place
+
+
+def _check_app_manager(package: Package, elements: Sequence[_Element], file: CheckedFile) -> None:
+    """app_manager asks only the packages that depend on it."""
+    exports = [export for export in package.exports if export.tag == 'app_manager']
+    if exports and package.name != 'app_manager' and not any(
+            element.tag in _DEPENDENCIES and ''.join(element.text).strip() == 'app_manager'
+            for element in elements):
+        file.warn('the package does not depend on app_manager, which does not see its apps then',
+                  (exports[0].line, exports[0].column), 'no-app-manager-dependency')

@@ -9,6 +9,7 @@ from rocon_uri.grammar import is_rocon_app
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.sources.checked import CheckedMapping
+from rocon_uri.sources.located import NOWHERE
 from rocon_uri.sources.wording import quoted
 from rocon_uri.workspace import Workspace
 
@@ -30,7 +31,8 @@ def check_rapp(rapp: Rapp, package_folder: str, workspace: Workspace) -> List[Fi
     file = CheckedFile(rapp.path, package_folder)
     if not is_rocon_app(rapp.name):
         file.warn('no rocon URI can name rapp %s: the names of package and file have to be ROS '
-                  'base names (a letter, then letters, digits and _)' % quoted(rapp.name))
+                  'base names (a letter, then letters, digits and _)' % quoted(rapp.name),
+                  NOWHERE, 'illegal-name')
     source = file.mapping(rapp.source, 'the rapp')
     source.warn_of_unknown(KEYS)
     if rapp.compatibility is not None:
@@ -40,7 +42,7 @@ def check_rapp(rapp: Rapp, package_folder: str, workspace: Workspace) -> List[Fi
         for key, lacking in (('launch', 'compatibility'), ('compatibility', 'launch')):
             if getattr(rapp, key) is not None:
                 file.warn('the rapp has %s but no %s, so it never runs' % (key, lacking),
-                          rapp.position(key))
+                          rapp.position(key), 'never-runs')
     folder = os.path.dirname(file.path)
     findings: List[Finding] = []
     for key, what, if_missing in (
@@ -64,7 +66,7 @@ def _check_required_capability(capability: CheckedMapping, file: CheckedFile,
     capability.warn_of_unknown(('name', 'interface'))
     name = capability.required_text('name')
     file.check_exists(name, 'capability', workspace.capabilities,
-                      capability.value_place('name'))
+                      capability.value_place('name'), 'no-interface')
     interface = workspace.interface(name)
     kinds = capability.mapping('interface')
     kinds.warn_of_unknown(TYPES_OF_REMAPPINGS)

@@ -33,7 +33,7 @@ def check_spec(spec: Spec, path: str, package_folder: str,
     file = CheckedFile(path, package_folder)
     source = CheckedMapping(file, spec.source or {}, 'the spec')
     for warning in spec.warnings:
-        file.warn(warning.problem, warning.place)
+        file.warn(warning.problem, warning.place, warning.id)
     if isinstance(spec, CapabilityInterface):
         _check_interface(spec, source, file)
     elif isinstance(spec, CapabilityProvider):
@@ -89,7 +89,7 @@ def _check_provider(spec: CapabilityProvider, source: CheckedMapping, file: Chec
     for dependency in spec.dependencies.values():
         _check_dependency(dependency, source, file, workspace)
     if spec.name in workspace.cycles:
-        file.error(str(workspace.cycles[spec.name]), source.value_place('depends_on'))
+        file.error(str(workspace.cycles[spec.name]), source.value_place('depends_on'), 'cycle')
 
 
 def _check_dependency(dependency: DependsOnRelationship, source: CheckedMapping, file: CheckedFile,
@@ -101,13 +101,14 @@ def _check_dependency(dependency: DependsOnRelationship, source: CheckedMapping,
         place = key_place(given, name)
     elif isinstance(given, list):
         place = value_place(given, given.index(name))
-    file.check_exists(name, 'capability', workspace.capabilities, place)
+    file.check_exists(name, 'capability', workspace.capabilities, place, 'no-interface')
     if preferred is None:
         return
     place = value_place(given[name], 'provider')
-    if file.check_exists(preferred, 'preferred provider', workspace.providers, place):
+    if file.check_exists(preferred, 'preferred provider', workspace.providers, place,
+                         'unknown-provider'):
         implemented = workspace.providers[preferred].implements
         redefined = getattr(workspace.capabilities.get(implemented), 'redefines', None)
         if name not in (implemented, redefined):
             file.error('preferred provider %s implements %s, not %s' % (
-                quoted(preferred), quoted(implemented), quoted(name)), place)
+                quoted(preferred), quoted(implemented), quoted(name)), place, 'wrong-provider')

@@ -25,7 +25,7 @@ from __future__ import annotations
 import re
 from typing import Any, Callable, Iterator, List, Optional, Sequence, Union
 
-from rocon_uri.sources.located import NOWHERE, LocatedError, Place
+from rocon_uri.sources.located import NOWHERE, LocatedError, Place, with_id
 from rocon_uri.sources.wording import did_you_mean, near_misses, shown
 from rocon_uri.sources.yaml_data import YamlError, key_place, place_of, value_place
 from rocon_uri.sources.yaml_source import load
@@ -49,15 +49,16 @@ class Reading:
         self.file_name = file_name
         self._error = error
 
-    def fault(self, problem: str, place: Place = NOWHERE) -> LocatedError:
-        """The error to raise for what is wrong."""
-        return self._error(problem, self.file_name, *place)
+    def fault(self, problem: str, place: Place = NOWHERE, fault_id: str = 'wrong-value'
+              ) -> LocatedError:
+        """The error to raise for what is wrong; ``fault_id`` becomes its ``id``."""
+        return with_id(self._error(problem, self.file_name, *place), fault_id)
 
     def refuse(self, fault: LocatedError) -> None:
         """Deal with a fault: raise it."""
         raise fault
 
-    def warn(self, problem: str, place: Place = NOWHERE) -> None:
+    def warn(self, problem: str, place: Place, fault_id: str) -> None:
         """Note what is odd and does no harm. Here it is ignored."""
 
     def has_room(self) -> bool:
@@ -74,7 +75,7 @@ class Reading:
         try:
             return load(content, self.file_name)
         except YamlError as error:
-            self.refuse(self.fault(error.problem, error.place))
+            self.refuse(self.fault(error.problem, error.place, error.id))
             return None
 
     def load(self, content: Union[str, bytes], what: str, expected: str = 'a mapping'
@@ -226,11 +227,12 @@ class CheckedMapping:
         unknown = [name for name in self.data if isinstance(name, str) and name not in known]
         for near in near_misses(key, unknown[:_MAX_SUSPECTS] if known else ()):
             self.reading.refuse(self.reading.fault('unknown key %s, and %s has no %s%s' % (
-                shown(near), self.title, key, did_you_mean([key])), self.key_place(near)))
+                shown(near), self.title, key, did_you_mean([key])), self.key_place(near),
+                'missing-key'))
             return None
         self.reading.refuse(self.reading.fault(
             '%s has no %s' % (self.title, key),
-            self.key_place(key) if key in self.data else self.place))
+            self.key_place(key) if key in self.data else self.place, 'missing-key'))
         return None
 
     def required_text(self, key: str, known: Sequence[str] = ()) -> str:
@@ -242,22 +244,22 @@ class CheckedMapping:
         for key, _, place in getattr(self.data, 'repeated', ()):
             problem = 'duplicate key %s%s' % (shown(key), self._within(' in '))
             if key in harmless:
-                self.reading.warn(problem + ', the last one counts', place)
+                self.reading.warn(problem + ', the last one counts', place, 'duplicate-key')
             else:
-                self.reading.refuse(self.reading.fault(problem, place))
+                self.reading.refuse(self.reading.fault(problem, place, 'duplicate-key'))
 
     def unknown_key(self, key: object, known: Sequence[str], kind: str = 'key') -> LocatedError:
         """The error to raise for a key that is not known; ``kind`` is what such a key is."""
         return self.reading.fault('unknown %s %s in %s%s' % (
             kind, shown(key), self.title, self.reading.expectation(key, known)),
-            self.key_place(key))
+            self.key_place(key), 'unknown-key')
 
     def warn_of_unknown(self, known: Sequence[str]) -> None:
         """Note the keys that are not known."""
         for key in self.data:
             if key not in known and self.reading.has_room():
                 unknown = self.unknown_key(key, known)
-                self.reading.warn(unknown.problem, unknown.place)
+                self.reading.warn(unknown.problem, unknown.place, unknown.id)
 
     def _value_called(self, key: object, what: str) -> str:
         return _called(what, key) if what else str(key) + self._within(' of ')

@@ -1,11 +1,11 @@
 """What says FILE:LINE:COLUMN: PROBLEM: errors, warnings and findings."""
 from __future__ import annotations
 
-from typing import Optional, Tuple, Union
+from typing import Optional, Tuple, TypeVar, Union
 
 from rocon_uri.sources.wording import printable
 
-__all__ = ['NOWHERE', 'Fault', 'Located', 'LocatedError', 'Place', 'located']
+__all__ = ['NOWHERE', 'Fault', 'Located', 'LocatedError', 'Place', 'located', 'with_id']
 
 #: A line and a column, counted from 1; ``None`` for both where they are not known.
 Place = Tuple[Optional[int], Optional[int]]
@@ -33,6 +33,8 @@ def located(problem: str, file_name: str, line: Optional[int], column: Optional[
 class Located:
     """What errors, warnings and findings have in common; ``str`` is FILE:LINE:COLUMN: PROBLEM."""
 
+    #: the kind of fault, in kebab case: a stable name that `rocon_uri.lint.explanations` explains
+    id: str
     #: what is wrong, without the place
     problem: str
     #: where the text is from
@@ -61,11 +63,13 @@ class LocatedError(Located, Exception):
     An error that knows its place. It can be pickled.
 
     The parameters are those of `located`, and the attributes have their names. ``more`` are further
-    arguments of a subclass, which its ``__init__`` takes by position.
+    arguments of a subclass, which its ``__init__`` takes by position. ``id`` can be set.
 
     >>> print(LocatedError("topic 'scan' has no type", 'laser.yaml', 12, 5))
     laser.yaml:12:5: topic 'scan' has no type
     """
+
+    id = 'wrong-value'
 
     def __init__(self, problem: str, file_name: str, line: Optional[int] = None,
                  column: Optional[int] = None, *more: object) -> None:
@@ -74,6 +78,20 @@ class LocatedError(Located, Exception):
         self.file_name = file_name
         self.line = line
         self.column = column
+
+
+ErrorT = TypeVar('ErrorT', bound=LocatedError)
+
+
+def with_id(error: ErrorT, fault_id: str) -> ErrorT:
+    """
+    An error, once its ``id`` is set.
+
+    >>> with_id(LocatedError("duplicate rapp 'ours/dance'", 'dance.rapp'), 'duplicate-name').id
+    'duplicate-name'
+    """
+    error.id = fault_id
+    return error
 
 
 #: what can be wrong with a file: it cannot be read, or something in it is wrong

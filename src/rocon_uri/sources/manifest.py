@@ -40,6 +40,8 @@ class PackageError(LocatedError):
     a_package/package.xml:3:1: no element found
     """
 
+    id = 'invalid-manifest'
+
     @property
     def msg(self) -> str:
         """The earlier name of ``problem``."""

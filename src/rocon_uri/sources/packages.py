@@ -17,6 +17,7 @@ from __future__ import annotations
 import os
 from typing import Dict, Iterable, Iterator, List, Optional
 
+from rocon_uri.sources.located import with_id
 from rocon_uri.sources.manifest import (
     MANIFEST, Export, Package, PackageError, as_package, package_from_manifest, read_manifest)
 from rocon_uri.sources.wording import quoted, quoted_path
@@ -49,9 +50,9 @@ def find_packages(paths: Iterable[str], errors: Optional[List[PackageError]] = N
             try:
                 package = package_from_manifest(os.path.join(folder, MANIFEST))
                 if package.name in found:
-                    raise PackageError('duplicate package %s, the first is in %s' % (
+                    raise with_id(PackageError('duplicate package %s, the first is in %s' % (
                         quoted(package.name), quoted_path(found[package.name].manifest)),
-                        package.manifest)
+                        package.manifest), 'duplicate-package')
                 found[package.name] = package
             except PackageError as error:
                 errors.append(error)

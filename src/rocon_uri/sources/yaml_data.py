@@ -26,6 +26,8 @@ class YamlError(LocatedError, ValueError):
     laser.yaml:1:101: nested deeper than 100
     """
 
+    id = 'not-yaml'
+
 
 class _Positioned:
     __slots__ = ()

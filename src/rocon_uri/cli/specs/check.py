@@ -3,100 +3,185 @@ Check all that packages export, for continuous integration.
 
 Examples:
   rocon_uri specs check
-  rocon_uri specs check src
-  rocon_uri specs check . --format github
+  rocon_uri specs check src our_rapps --format github
+  rocon_uri specs check rapps/dance/dance.rapp --ignore file-missing
+  rocon_uri specs check --explain launch-missing
 
-Checks the specs, rapps and rules that the packages in and below PATH export, and
+Checks package.xml files, and the specs, apps and rules that packages export, and
 every .interactions file in them. They may refer to each other and to packages on
-the package path. Prints findings as FILE:LINE:COLUMN: SEVERITY: TEXT, or in the
-form that GitHub reads. An error is something that does not work, or not as it is
-written; a warning is something that works but was probably not meant.
+the package path. PATH is a folder with packages in or below it, the name of a
+package on the package path, or a single file, which is checked as what its package
+makes of it; without any, the working directory is checked. A single file may also
+refer to packages below the working directory.
+
+Prints findings as FILE:LINE:COLUMN: SEVERITY: TEXT [ID]. An error is something that
+does not work, or not as it is written; a warning is something that works but was
+probably not meant. A finding is left out with --ignore ID, with a comment
+"# rocon_uri: ignore[ID]" on its line (in XML "<!-- rocon_uri: ignore[ID] -->", on
+the line or above), or with "ignore: [ID, 'ID:rapps/*.rapp']" in a .rocon_uri.yaml
+beside the package.xml.
 
 Exit status: 0 if there is no error, warnings or not; 1 if there is one; 2 if a
-PATH is not a directory or has no package in it, though the others are checked
-JSON: {"findings": [{"file", "line", "column", "severity", "text"}, ...],
+PATH is bad or has no package in it, though the others are checked
+JSON: {"findings": [{"file", "line", "column", "severity", "id", "text"}, ...],
 "packages": [NAME, ...], "errors": [ERROR, ...]}, with null as line and column
-of a finding that has no place
+of a finding that has no place; with --explain {"id", "section", "what", "why",
+"mend", "example", "errors"}
 """
 from __future__ import annotations
 
 import os
 
-from rocon_uri.cli.display import print_json
+from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.given import say
 from rocon_uri.cli.packages import (
     PackageReport, add_package_path, escape_unencodable, package_path, quiet_loggers)
-from rocon_uri.sources.wording import quoted_path
+from rocon_uri.sources.wording import (
+    did_you_mean, near_misses, printable, quoted, quoted_path)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Dict, List, Tuple
+    from typing import Dict, Iterable, List
 
-    from rocon_uri.sources.packages import Package, PackageError
+    from rocon_uri.lint import Checked
+    from rocon_uri.lint.finding import Finding
 
 __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the verb takes."""
     parser.add_argument('paths', metavar='PATH', nargs='*',
-                        help='a package, or a folder with packages below it (default: all on '
-                        'the package path)')
+                        help='a folder, the name of a package or a file (default: the working '
+                        'directory)')
     add_package_path(parser)
-    parser.add_argument('--format', choices=('text', 'github'), default='text',
+    parser.add_argument('--format', choices=('text', 'json', 'github', 'junit', 'sarif'),
+                        default='text',
                         help='github is for the log of a GitHub workflow, which shows each '
-                        'finding beside its line')
+                        'finding beside its line; json is the same as --json')
     parser.add_argument('--junit', metavar='FILE',
                         help='also write a report of test results, as catkin reads it')
+    parser.add_argument('--ignore', metavar='ID', action='append', default=[],
+                        help='leave out the findings with this id (can be given several times)')
+    parser.add_argument('--warnings-as-errors', action='store_true',
+                        help='make errors of all warnings')
+    parser.add_argument('-q', '--quiet', action='store_true',
+                        help='print findings only, not how many there are')
+    parser.add_argument('--explain', metavar='ID',
+                        help='say what a finding means and how to mend it, and check nothing')
 
 
 def main(args: argparse.Namespace) -> int:
+    """Do it, and return the exit status."""
     # here, since they load catkin_pkg and YAML, and a verb can be asked for help without
+    from dataclasses import replace
+    from rocon_uri.lint import ERROR, WARNING, check_package_index
+    from rocon_uri.lint.junit import junit_text
+    from rocon_uri.lint.targets import find_targets
     from rocon_uri.sources.packages import find_packages
-    from rocon_uri.lint import ERROR, check_package_index
-    from rocon_uri.lint.finding import junit_text
     escape_unencodable()
     quiet_loggers()
-    report = PackageReport(args.json)
-    around = package_path(args, report, is_needed=not args.paths)
-    if args.paths:
-        checked, faults = _given_packages(args.paths, report)
-        others = find_packages(around)
-    else:
-        faults = []
-        checked, others = find_packages(around, faults), {}
-    findings = check_package_index(checked, others, faults)
-    if args.json:
-        print_json({'findings': [finding.as_json() for finding in findings],
-                    'packages': list(checked), 'errors': report.errors})
-    else:
-        for finding in findings:
-            print(finding.as_github() if args.format == 'github' else finding)
+    report = PackageReport(args.json or args.format == 'json')
+    if args.explain is not None:
+        return _explain(args, report)
+    _check_ids(args.ignore, report)
+    others = find_packages(package_path(args, report, is_needed=False))
+    targets = find_targets(args.paths or [os.curdir], others)
+    for error in targets.errors:
+        report.bad(error)
+    if not targets.are_whole:
+        others = {**others, **find_packages([os.curdir])}
+    checked = check_package_index(targets.packages, others, targets.faults, targets.only,
+                                  args.ignore, targets.findings)
+    if args.warnings_as_errors:
+        checked = checked._replace(findings=[
+            replace(finding, severity=ERROR) for finding in checked.findings])
+    _show(args, checked, list(targets.packages), report)
     if args.junit is not None and not report.status:     # no report is a failure for catkin
-        _write(junit_text(' '.join(checked) or 'nothing', findings), args.junit, report)
-    errors = sum(finding.severity == ERROR for finding in findings)
-    say('rocon_uri: %s and %s in %s' % (
-        _counted(errors, 'error'), _counted(len(findings) - errors, 'warning'),
-        _counted(len(checked), 'package')))
+        _write(junit_text(checked.findings, checked.files), args.junit, report)
+    errors = sum(finding.severity == ERROR for finding in checked.findings)
+    if not args.quiet:
+        say('rocon_uri: %s and %s in %s' % (
+            _counted(errors, 'error'), _counted(len(checked.findings) - errors, WARNING),
+            _counted(len(targets.packages), 'package') if targets.are_whole else
+            _counted(len(checked.files), 'file')))
     return report.status or (1 if errors else 0)
 
 
-def _given_packages(paths: List[str], report: PackageReport
-                    ) -> Tuple[Dict[str, Package], List[PackageError]]:
-    """The packages in some folders, and their faults. A folder that has neither is reported."""
-    from rocon_uri.sources.packages import find_packages      # see main
-    packages: Dict[str, Package] = {}
-    faults: List[PackageError] = []
-    for path in paths:
-        new_faults: List[PackageError] = []
-        found = find_packages([path], new_faults)
-        if not found and not new_faults:
-            report.bad('%s %s' % (quoted_path(path), 'has no package in it' if os.path.isdir(path)
-                                  else 'is not a directory'))
-        for name, package in found.items():
-            packages.setdefault(name, package)
-        faults += new_faults
-    return packages, faults
+def _show(args: argparse.Namespace, checked: Checked, packages: List[str],
+          report: PackageReport) -> None:
+    """Print the findings in the form that is asked for."""
+    if args.json or args.format == 'json':
+        print_json({'findings': [finding.as_json() for finding in checked.findings],
+                    'packages': packages, 'errors': report.errors})
+    elif args.format == 'sarif':
+        from rocon_uri.lint.sarif import sarif_log
+        print_json(sarif_log(checked.findings))
+    elif args.format == 'junit':
+        from rocon_uri.lint.junit import junit_text
+        print(junit_text(checked.findings, checked.files))
+    elif args.format == 'github':
+        for finding in checked.findings:
+            print(finding.as_github())
+    else:
+        _show_text(checked.findings)
+
+
+def _show_text(findings: Iterable[Finding]) -> None:
+    """Print a line for each finding; on a terminal in colour, with the line that it is in."""
+    import sys
+    if not sys.stdout.isatty():
+        for finding in findings:
+            print(finding)
+        return
+    from rocon_uri.lint.source_lines import SourceLines
+    paint = painter()
+    colours = {'error': 'red', 'warning': 'yellow'}
+    lines = SourceLines()
+    for finding in findings:
+        text, sentence = str(finding), printable(finding.sentence)
+        colour = colours[finding.severity]
+        print(text[:-len(sentence)] + paint(finding.severity, colour)
+              + sentence[len(finding.severity):])
+        if finding.line is not None:
+            for line in _marked(lines.line(finding.file_name, finding.line), finding.column or 1):
+                print('    ' + line)
+
+
+def _marked(line: str, column: int) -> List[str]:
+    """The part of a line around a column, and a caret for below it."""
+    start = max(0, column - 41)
+    before = '...' if start else ''
+    shown = ''.join(c if c.isprintable() else ' ' if c == '\t' else '?'
+                    for c in line[start:column + 60])
+    after = '...' if len(line) > column + 60 else ''
+    if not shown.strip():
+        return []
+    return [before + shown + after, ' ' * (len(before) + column - 1 - start) + '^']
+
+
+def _explain(args: argparse.Namespace, report: PackageReport) -> int:
+    """Print what a finding means."""
+    from rocon_uri.lint.explanations import EXPLANATIONS
+    _check_ids([args.explain], report)
+    explanation = EXPLANATIONS.get(args.explain)
+    if args.json or args.format == 'json':
+        texts: Dict[str, object] = {} if explanation is None else dict(explanation._asdict())
+        print_json({**texts, 'errors': report.errors})
+    elif explanation is not None:
+        print(explanation)
+    return report.status
+
+
+def _check_ids(ids: Iterable[str], report: PackageReport) -> None:
+    """Report what is not the id of a finding."""
+    from rocon_uri.lint.explanations import EXPLANATIONS
+    for fault_id in ids:
+        if fault_id not in EXPLANATIONS:
+            near = near_misses(fault_id, EXPLANATIONS)
+            report.bad('%s is not the id of a finding%s' % (quoted(fault_id), did_you_mean(near)),
+                       suggestions=near)
 
 
 def _write(text: str, path: str, report: PackageReport) -> None:

@@ -1,0 +1,279 @@
+"""specs check: what it is given, what it leaves out, and the forms in which it answers."""
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from xml.etree import ElementTree
+
+import pytest
+from made_packages import make_package
+from sources import ROOT
+from test_cli import run_on_terminal
+
+from rocon_uri.cli import main
+from rocon_uri.lint.explanations import EXPLANATIONS
+
+RAPP = 'display: Dance\ndescription: A dance\ncompatibility: rocon:/pr2\nlaunch: dance.launch\n'
+CAMERA = ('name: Camera\nspec_version: 1\nspec_type: interface\ninterface:\n'
+          '  topics: {provides: {image: {type: sensor_msgs/Image}}}\n')
+USB = 'name: usb\nspec_version: 1\nspec_type: provider\nimplements: theirs/Camera\n'
+
+
+@pytest.fixture(autouse=True)
+def no_packages_around(monkeypatch):
+    monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)
+
+
+@pytest.fixture
+def check(capsys):
+    """Run the verb, and return its status, output and errors."""
+    def run(*arguments):
+        status = main(['specs', 'check', *map(str, arguments)])
+        out, err = capsys.readouterr()
+        return status, out, err
+    return run
+
+
+@pytest.fixture
+def workspace(tmp_path, monkeypatch):
+    """Two packages: ours has an error and a warning, and refers to theirs."""
+    make_package(tmp_path / 'src', 'ours', [('rocon_app', 'rapps/dance.rapp'),
+                                            ('capability_provider', 'usb.yaml')],
+                 rapps__dance_rapp=RAPP + 'icon: dance.png\n', usb_yaml=USB,
+                 other_yaml='a: b', x_launch='<launch/>', readme_txt='')
+    make_package(tmp_path / 'around', 'theirs', [('capability_interface', 'Camera.yaml')],
+                 Camera_yaml=CAMERA)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def found(answer):
+    """The places and ids in an answer."""
+    return [(line.partition(' ')[0].rstrip(':'), line.rpartition('[')[2].rstrip(']'))
+            for line in answer[1].splitlines()]
+
+
+DANCE = 'src/ours/rapps/dance.rapp'
+OF_DANCE = [(DANCE + ':4:9', 'launch-missing'), (DANCE + ':5:7', 'file-missing')]
+OF_USB = ('src/ours/usb.yaml:4:13', 'no-interface')
+
+
+# What is given
+
+@pytest.mark.parametrize('arguments, expected, end', [
+    (['src'], [*OF_DANCE, OF_USB], '1 package'),
+    ([], OF_DANCE, '2 packages'),
+    (['src', '--package-path', 'around'], OF_DANCE, '1 package'),
+    (['src/ours/'], [*OF_DANCE, OF_USB], '1 package'),
+    (['ours', '--package-path', 'src:around'], OF_DANCE, '1 package'),
+    (['ours', 'theirs', '--package-path', 'src', '--package-path', 'around'], OF_DANCE,
+     '2 packages'),
+    ([DANCE], OF_DANCE, '1 file'),
+    (['src/ours/rapps'], OF_DANCE, '1 file'),
+    (['src/ours/usb.yaml'], [], '1 file'),          # theirs is below the working directory
+    (['src/ours/package.xml', DANCE], OF_DANCE, '2 files'),
+    (['src/ours/other.yaml', 'src/ours/readme.txt', 'src/ours/x.launch'], [], 'no files'),
+])
+def test_what_is_checked(check, workspace, arguments, expected, end):
+    answer = check(*arguments)
+    assert found(answer) == expected
+    assert answer[2].endswith(' in %s\n' % end)
+    assert answer[0] == any('missing' in place_id[1] or place_id == OF_USB
+                            for place_id in expected)
+
+
+def test_a_single_file_is_checked_from_within_its_package(check, workspace, monkeypatch):
+    monkeypatch.chdir(workspace / 'src/ours/rapps')
+    assert found(check('dance.rapp', '--package-path', workspace / 'around')) == [
+        ('dance.rapp:4:9', 'launch-missing'), ('dance.rapp:5:7', 'file-missing')]
+    assert found(check()) == found(check('.')) == found(check('dance.rapp'))
+
+
+@pytest.mark.parametrize('name', ['x.rapp', 'x.app', 'x.installed', 'x.interactions'])
+def test_a_file_in_no_package_is_a_warning_if_it_should_be_in_one(check, workspace, name):
+    (workspace / name).write_text('{}')
+    assert found(check(name)) == [(name, 'no-package')]
+
+
+@pytest.mark.parametrize('name', ['x.yaml', 'x.launch', 'x.txt'])
+def test_another_file_in_no_package_is_left_out(check, workspace, name):
+    (workspace / name).write_text('[')
+    assert check(name) == (0, '', 'rocon_uri: no errors and no warnings in no files\n')
+
+
+def test_a_bad_manifest_of_a_single_file_is_an_error(check, workspace):
+    (workspace / 'src/ours/package.xml').write_text('<package>')
+    assert found(check(DANCE)) == [('src/ours/package.xml:1:10', 'invalid-manifest')]
+
+
+def test_two_packages_of_one_name_are_not_taken_for_one(check, workspace):
+    make_package(workspace / 'copy', 'ours', [('rocon_app', 'a.rapp')], a_rapp='[')
+    assert found(check(DANCE, 'copy/ours/a.rapp')) == [
+        ('copy/ours/package.xml', 'duplicate-package'), *OF_DANCE]
+
+
+def test_a_name_that_is_nothing_has_near_misses(check, workspace):
+    status, _, err = check('our', '--package-path', 'src')
+    assert status == 2
+    assert ("'our' is not a file, a directory or a package on the package path "
+            "(did you mean 'ours'?)") in err
+
+
+# What is left out
+
+def test_ids_are_ignored(check, workspace):
+    assert found(check('ours', '--package-path', '.', '--ignore', 'file-missing')) == OF_DANCE[:1]
+    status, out, _ = check('ours', '--package-path', '.', '--ignore', 'file-missing',
+                           '--ignore', 'launch-missing')
+    assert (status, out) == (0, '')
+
+
+def test_an_id_to_ignore_that_is_none_is_bad(check, workspace):
+    status, _, err = check(DANCE, '--ignore', 'launch-mising')
+    assert status == 2 and "'launch-mising' is not the id of a finding (did you mean " in err
+
+
+def test_warnings_as_errors(check, workspace):
+    arguments = ['ours', '--package-path', '.', '--ignore', 'launch-missing']
+    assert check(*arguments)[0] == 0
+    status, out, err = check(*arguments, '--warnings-as-errors')
+    assert status == 1 and ':5:7: error: ' in out and '1 error and no warnings' in err
+
+
+def test_quiet_prints_findings_only(check, workspace):
+    status, out, err = check(DANCE, '-q')
+    assert (status, out.count('\n'), err) == (1, 2, '')
+
+
+# Explanations
+
+def test_explain(check):
+    status, out, err = check('--explain', 'one-slash')
+    assert (status, err) == (0, '')
+    assert out.splitlines()[0] == 'one-slash' and '\nWhy: ' in out and '\nMend: ' in out
+    assert json.loads(check('--explain', 'cycle', '--json')[1]) == {
+        **EXPLANATIONS['cycle']._asdict(), 'errors': []}
+
+
+def test_explain_of_what_is_no_id(check):
+    status, out, err = check('--explain', 'one-slsh')
+    assert (status, out) == (2, '') and "(did you mean 'one-slash'?)" in err
+
+
+# Forms
+
+def test_format_json_is_json(check, workspace):
+    answer = check(DANCE, '--format', 'json')
+    assert answer == check(DANCE, '--json')
+    assert [finding['id'] for finding in json.loads(answer[1])['findings']] == [
+        'launch-missing', 'file-missing']
+
+
+def test_format_junit_has_a_test_for_each_file(check, workspace):
+    status, out, _ = check('ours', '--package-path', '.', '--format', 'junit')
+    suite = ElementTree.fromstring(out.encode())
+    assert status == 1
+    assert [(case.get('name'), [below.tag for below in case]) for case in suite] == [
+        ('src/ours/package.xml', []), (DANCE, ['failure']), ('src/ours/usb.yaml', [])]
+    assert float(suite.get('time')) >= max(float(case.get('time')) for case in suite) - 0.001
+    assert any(float(case.get('time')) > 0 for case in suite)
+
+
+def sarif(check, *arguments):
+    status, out, _ = check(*arguments, '--format', 'sarif')
+    return json.loads(out)
+
+
+def test_format_sarif(check, workspace, tmp_path):
+    (run,) = sarif(check, 'ours', '--package-path', '.')['runs']
+    assert run['columnKind'] == 'unicodeCodePoints'
+    assert [rule['id'] for rule in run['tool']['driver']['rules']] == [
+        'launch-missing', 'file-missing']
+    assert [(result['ruleId'], result['ruleIndex'], result['level'])
+            for result in run['results']] == [
+        ('launch-missing', 0, 'error'), ('file-missing', 1, 'warning')]
+    assert run['results'][0]['locations'] == [{'physicalLocation': {
+        'artifactLocation': {'uri': DANCE, 'uriBaseId': '%SRCROOT%'},
+        'region': {'startLine': 4, 'startColumn': 9}}}]
+
+
+def test_sarif_has_uris_that_are_legal_and_absolute_ones_of_what_is_elsewhere(
+        check, workspace, monkeypatch):
+    make_package(workspace, 'x y', [('rocon_app', 'é#.rapp')])
+    (workspace / 'x y' / 'package.xml').write_text(
+        (workspace / 'x y' / 'package.xml').read_text().replace('x y', 'x_y'))
+    (workspace / 'x y' / 'é#.rapp').write_text(RAPP)
+    (run,) = sarif(check, 'x y')['runs']
+    uris = [result['locations'][0]['physicalLocation']['artifactLocation']['uri']
+            for result in run['results']]
+    assert set(uris) == {'x%20y/%C3%A9%23.rapp'}
+    monkeypatch.chdir(ROOT)
+    (run,) = sarif(check, workspace / DANCE)['runs']
+    location = run['results'][0]['locations'][0]['physicalLocation']['artifactLocation']
+    assert location == {'uri': (workspace / DANCE).as_uri()}
+
+
+def test_columns_are_counted_in_code_points(check, workspace):
+    (workspace / DANCE).write_text('{display: "\U0001d11eé", colour: red, %s}' % RAPP.replace(
+        'display: Dance\n', '').strip().replace('\n', ', '))
+    (run,) = sarif(check, DANCE, '--ignore', 'launch-missing')['runs']
+    (result,) = run['results']
+    assert result['locations'][0]['physicalLocation']['region'] == {
+        'startLine': 1, 'startColumn': 17}
+
+
+def oracle(name):
+    """A module of PyPI that test/lint_requirements.txt names, in a Python that has it."""
+    pythons = list((ROOT / 'build' / 'lint' / 'bin').glob('python3'))
+    if not pythons or subprocess.run([str(pythons[0]), '-c', 'import ' + name],
+                                     stderr=subprocess.DEVNULL).returncode:
+        if os.environ.get('CI') and sys.version_info >= (3, 10):    # which it needs
+            pytest.fail('%s is not installed' % name)
+        pytest.skip('%s is not installed' % name)
+    return str(pythons[0])
+
+
+def test_others_read_the_sarif(check, workspace):
+    python = oracle('sarif_pydantic')
+    (workspace / 'x.sarif').write_text(check('.', '--format', 'sarif')[1])
+    script = ('import sarif_pydantic, sys\n'
+              'log = sarif_pydantic.Sarif.model_validate_json(open(sys.argv[1]).read())\n'
+              'print([result.rule_id for result in log.runs[0].results])')
+    assert subprocess.check_output([python, '-c', script, 'x.sarif'], text=True).strip() == (
+        "['launch-missing', 'file-missing']")
+
+
+def test_sarif_tools_make_a_summary_of_it(check, workspace):
+    python = oracle('sarif')
+    (workspace / 'x.sarif').write_text(check('.', '--format', 'sarif')[1])
+    summary = subprocess.check_output([python, '-m', 'sarif', 'summary', 'x.sarif'], text=True)
+    assert re.search(r'error: 1\n - launch-missing.*: 1', summary)
+    assert re.search(r'warning: 1\n - file-missing.*: 1', summary)
+
+
+# On a terminal
+
+def test_on_a_terminal_a_finding_has_colour_and_its_line(workspace):
+    shown = run_on_terminal('specs', 'check', str(workspace / DANCE), TERM='xterm')
+    assert '\x1b[31merror\x1b[0m: launch file' in shown
+    assert '\x1b[33mwarning\x1b[0m: icon' in shown
+    assert '    launch: dance.launch\n            ^\n' in shown
+
+
+def test_without_colour_it_still_has_its_line(workspace):
+    shown = run_on_terminal('specs', 'check', str(workspace / DANCE), NO_COLOR='1')
+    assert '\x1b' not in shown
+    assert '    icon: dance.png\n          ^\n' in shown
+
+
+def test_a_long_line_is_cut_around_the_place(workspace):
+    (workspace / DANCE).write_text('{%s, icon: dance.png, colour: %s}' % (
+        RAPP.strip().replace('\n', ', ').replace('A dance', 'a' * 200), 'b' * 200))
+    shown = run_on_terminal('specs', 'check', str(workspace / DANCE), NO_COLOR='1')
+    for line, below in re.findall('    (.*)\n    ( *\\^)\n', shown):
+        assert len(line) < 110 and line.startswith('...') and line.endswith('...')
+        assert line[len(below) - 1:].startswith(('dance.launch', 'dance.png', 'colour'))
+    assert shown.count('^') == 3

@@ -1,0 +1,150 @@
+"""What the linter says of interactions: which are one, what they need, what they refer to."""
+from __future__ import annotations
+
+import pytest
+from made_packages import make_package
+
+from rocon_uri.lint import check_packages
+
+HONK = '{name: "", role: Staff, compatibility: "rocon:/pc", display_name: %s, pairing: {rapp: %s}}'
+
+
+def found(tmp_path, monkeypatch, text, **others):
+    make_package(tmp_path, 'ours', [('rocon_app', 'honk.rapp'), ('rocon_app', 'wave.rapp')],
+                 honk_rapp='{}', wave_rapp='{}', x_interactions=text, **others)
+    monkeypatch.chdir(tmp_path)
+    return [str(finding).partition('ours/x.interactions:')[2]
+            for finding in check_packages(['.'], []) if 'x.interactions' in finding.file_name]
+
+
+def first(**keys):
+    """An interaction of the first form."""
+    return {'name': 'web', 'role': 'Staff', 'compatibility': 'rocon:/pc', 'display_name': 'Menu',
+            **keys}
+
+
+def later(**keys):
+    """An interaction of the later form."""
+    return {'name': 'Menu', 'command': 'web', 'group': 'Staff', 'compatibility': 'rocon:/pc',
+            **keys}
+
+
+def test_two_without_a_name_that_are_paired_are_two(tmp_path, monkeypatch):
+    text = '[%s, %s]' % (HONK % ('Honk', 'ours/honk'), HONK % ('Wave', 'ours/wave'))
+    assert found(tmp_path, monkeypatch, text) == []
+
+
+@pytest.mark.parametrize('name', ['name: "", ', 'name: null, ', 'name: , ', ''])
+def test_a_name_may_be_missing_where_a_rapp_is_paired(tmp_path, monkeypatch, name):
+    text = '[%s]' % (HONK % ('Honk', 'ours/honk')).replace('name: "", ', name, 1)
+    assert found(tmp_path, monkeypatch, text) == []
+    text = text.replace('pairing: {rapp: ours/honk}', 'max: 1')
+    assert len(found(tmp_path / 'unpaired', monkeypatch, text)) == 1
+
+
+@pytest.mark.parametrize('one, other, severity', [
+    (first(), first(), 'error'),
+    (first(), first(name='other', description='other'), 'error'),
+    (first(), first(display_name='Other'), None),
+    (first(), first(role='Guest'), None),
+    (first(), first(namespace='/kitchen'), None),
+    (first(), first(namespace='/'), 'error'),
+    (first(), first(compatibility='rocon:/tablet'), 'warning'),
+    (later(), later(), 'error'),
+    (later(), later(command='other'), 'error'),
+    (later(), later(name='Other'), None),
+    (later(), later(group='Guest'), None),
+    (later(), later(role='Guest'), 'error'),
+    (later(), later(namespace='/kitchen'), None),
+    (later(), later(compatibility='rocon:/tablet'), 'warning'),
+    (later(group='Other'), later(group=None), 'error'),
+    (later(group='Hidden'), later(hidden=True), 'error'),
+    (later(), later(hidden=True), None),
+    (later(), later(hidden=False), 'error'),
+    (first(), later(), None),
+])
+def test_which_two_entries_are_one(tmp_path, monkeypatch, one, other, severity):
+    import json
+    lines = found(tmp_path, monkeypatch, json.dumps([one, other]))
+    assert [line.split(' ')[1].rstrip(':') for line in lines] == ([severity] if severity else [])
+    assert all("duplicate interaction 'Menu'" in line and line.endswith(' [duplicate-interaction]')
+               for line in lines)
+
+
+def test_a_group_is_that_of_its_entries(tmp_path, monkeypatch):
+    import json
+    entry = later()
+    del entry['group']
+    text = json.dumps([{'group': 'A', 'interactions': [entry]}, {'B': [entry]},
+                       {'group': 'A', 'interactions': [entry]}])
+    (line,) = found(tmp_path, monkeypatch, text)
+    assert 'duplicate interaction' in line
+
+
+@pytest.mark.parametrize('pairing, finding', [
+    ('{rapp: ours/honk}', None),
+    ('{name: Honk, rapp: ours/honk, remappings: [{remap_from: a, remap_to: b}]}', None),
+    ('{rapp: ours/hnok}', "error: rapp 'ours/hnok' does not exist (did you mean 'ours/honk'?) "
+                          '[unknown-app]'),
+    ('{}', 'error: pairing has no rapp [missing-key]'),
+    ('[ours/honk]', 'error: pairing is a list, expected a mapping [wrong-value]'),
+    ('{rapp: ours/honk, raps: x}', "warning: unknown key 'raps' in pairing (did you mean 'rapp'?) "
+                                   '[unknown-key]'),
+    ('{rapp: ours/honk, remappings: [{remap_from: a, remap_to: b-c}]}',
+     "error: remap_to 'b-c' is not a legal ROS name [illegal-name]"),
+])
+def test_a_pairing_in_an_entry_is_checked_like_another(tmp_path, monkeypatch, pairing, finding):
+    text = ('[{name: a, display_name: A, role: Staff, compatibility: "rocon:/pc", pairing: %s}]'
+            % pairing)
+    assert [line.partition(' ')[2] for line in found(tmp_path, monkeypatch, text)] == (
+        [finding] if finding else [])
+
+
+@pytest.mark.parametrize('value, finding', [
+    ('1', None), ('-1', None), ('0', None), ('null', None),
+    ('-2', 'max is -2, expected a whole number from -1 on'),
+    ('many', "max is 'many', expected a whole number from -1 on"),
+    ('"1"', "max is '1', expected a whole number from -1 on"),
+    ('1.5', 'max is 1.5, expected a whole number from -1 on'),
+    ('true', 'max is true, expected a whole number from -1 on'),
+])
+def test_max_is_a_number(tmp_path, monkeypatch, value, finding):
+    text = '[{name: A, command: a, compatibility: "rocon:/pc", max: %s}]' % value
+    assert found(tmp_path, monkeypatch, text) == (
+        ['1:%d: error: %s [wrong-value]' % (text.index('max: ') + 6, finding)] if finding else [])
+
+
+@pytest.mark.parametrize('text, finding', [
+    ('{display_name: A, name: a, compatibility: "rocon:/pc"}', 'an interaction has no role'),
+    ('{display_name: A, name: a, role: Staff}', 'an interaction has no compatibility'),
+    ('{display_name: A, role: Staff, compatibility: "rocon:/pc"}', 'an interaction has no name'),
+    ('{name: A, group: B, compatibility: "rocon:/pc"}', 'an interaction has no command'),
+    ('{name: A, group: B, command: "", compatibility: "rocon:/pc"}', None),
+    ('{name: "", group: B, command: a, compatibility: "rocon:/pc"}', 'name is empty'),
+])
+def test_what_an_entry_cannot_do_without(tmp_path, monkeypatch, text, finding):
+    lines = found(tmp_path, monkeypatch, '[%s]' % text)
+    assert len(lines) == bool(finding) and all('error: ' + finding in line for line in lines)
+
+
+PAIRED = '''\
+interactions:
+- {name: Menu, command: web, compatibility: "rocon:/pc", required_pairings: [%s]}
+pairings:
+- {name: Talk, rapp: ours/honk, requires_interaction: %s}
+'''
+
+
+@pytest.mark.parametrize('names, finding', [
+    (('Talk', 'Menu'), None),
+    (('Tlak', 'Menu'), "2:78: error: pairing 'Tlak' does not exist in the interactions of the "
+                       "package (did you mean 'Talk'?) [unknown-pairing]"),
+    (('Talk', 'Mneu'), "4:55: error: interaction 'Mneu' does not exist in the interactions of the "
+                       "package (did you mean 'Menu'?) [unknown-interaction]"),
+    (('7', 'Menu'), '2:78: error: an item of required_pairings is 7, expected text [wrong-value]'),
+    (('Talk, Else', 'Other'), None),        # in another file of the package
+])
+def test_references_between_entries(tmp_path, monkeypatch, names, finding):
+    other = PAIRED.replace('Menu', 'Other').replace('Talk', 'Else') % ('Else', 'Other')
+    assert found(tmp_path, monkeypatch, PAIRED % names, y_interactions=other) == (
+        [finding] if finding else [])
