@@ -199,7 +199,7 @@ def check_command(workspace, run=rocon_uri):
     :returns: (what check finds, what apps complains of, what match warns of)
     """
     at = str(workspace)
-    checked = run('specs', 'check', '--package-path', at)
+    checked = run('specs', 'check', at)
     apps = run('apps', '--robot', 'rocon:/our_robot', '--all', '--package-path', at)
     match = run('match', 'rocon:/our_robot', '--in', workspace / 'fleet.txt', ROS_PACKAGE_PATH=at)
     assert not any(at + '/good' in line for line in checked.stdout.splitlines())

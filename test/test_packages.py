@@ -140,7 +140,8 @@ def test_a_folder_that_cannot_be_read_is_a_fault(
         '%s: folder cannot be read: Permission denied' % (tmp_path / 'locked')]
     assert list(find_packages([str(tmp_path)])) == ['a']
     [finding] = check_packages([str(tmp_path / 'locked')])
-    assert str(finding).endswith('locked: error: folder cannot be read: Permission denied')
+    assert str(finding).endswith(
+        'locked: error: folder cannot be read: Permission denied [cannot-read]')
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason='root reads everything')

@@ -180,7 +180,7 @@ of them
     interface = source.required_text('interface', KEYS)
     if not texts['launch'] and not texts['run']:
         raise source.reading.fault('the app has no launch and no run, expected one of them',
-                                   source.place)
+                                   source.place, 'missing-key')
     if texts['launch'] and texts['run']:
         raise source.reading.fault('the app has both launch and run, expected one of them',
                                    source.key_place('run'))

@@ -23,7 +23,7 @@ from typing import Dict, List, Mapping, Tuple
 from rocon_uri.apps.app_file import AppFile, InvalidApp, app_from_file_path
 from rocon_uri.sources.resources import Resources
 from rocon_uri.sources.checked import Reading
-from rocon_uri.sources.located import NOWHERE, LocatedError, Place
+from rocon_uri.sources.located import NOWHERE, LocatedError, Place, with_id
 from rocon_uri.sources.packages import Package
 from rocon_uri.sources.wording import quoted
 from rocon_uri.sources.yaml_source import read_file
@@ -106,7 +106,8 @@ def app_files_from_package_index(packages: Mapping[str, Package],
 def _app(name: str, installed: str, place: Place, resources: Resources) -> AppFile:
     found = resources.find(name, '.app')
     if found.path is None:
-        raise InvalidApp('app %s %s' % (quoted(name), found.problem), installed, *place)
+        raise with_id(InvalidApp('app %s %s' % (quoted(name), found.problem), installed, *place),
+                      'unknown-app')
     try:
         return app_from_file_path(found.path, name, resources)
     except OSError as error:
@@ -114,4 +115,5 @@ def _app(name: str, installed: str, place: Place, resources: Resources) -> AppFi
 
 
 def _unreadable(path: str, error: OSError) -> InvalidApp:
-    return InvalidApp('cannot be read: %s' % (error.strerror or error), path, *NOWHERE)
+    return with_id(InvalidApp('cannot be read: %s' % (error.strerror or error), path, *NOWHERE),
+                   'cannot-read')

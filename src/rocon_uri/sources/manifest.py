@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING, Dict, List, NamedTuple, Optional, Union
 from xml.parsers import expat
 
-from rocon_uri.sources.located import LocatedError
+from rocon_uri.sources.located import LocatedError, with_id
 from rocon_uri.sources.wording import quoted
 from rocon_uri.sources.yaml_data import MAX_SIZE
 from rocon_uri.sources.yaml_source import read_file
@@ -113,7 +113,7 @@ def read_manifest(path: str) -> str:
         content = read_file(path)
         text = content.decode('utf-8')
     except OSError as error:
-        raise PackageError(error.strerror or str(error), path) from error
+        raise with_id(PackageError(error.strerror or str(error), path), 'cannot-read') from error
     except UnicodeDecodeError as error:
         raise PackageError('not a valid manifest: %s' % error, path) from error
     if len(content) > MAX_SIZE:

@@ -78,8 +78,8 @@ def package_folders(path: str, errors: Optional[List[PackageError]] = None) -> I
             continue
         except OSError as error:
             if errors is not None and not folder.startswith('/usr/share/'):
-                errors.append(PackageError(
-                    'folder cannot be read: %s' % (error.strerror or error), folder))
+                errors.append(with_id(PackageError('folder cannot be read: %s' % (
+                    error.strerror or error), folder), 'cannot-read'))
             continue
         if not _IGNORE_MARKERS.isdisjoint(is_folder):
             continue
