@@ -233,7 +233,7 @@ def test_a_read_that_fails_says_the_name_of_the_file(tmp_path: Path) -> None:
     assert index.names == ['ours/B']
     assert isinstance(error, OSError) and error.filename == str(folder / 'A.yaml')
     assert [str(finding) for finding in check_packages([str(tmp_path)])] == [
-        '%s: error: cannot be read: Input/output error' % (folder / name)
+        '%s: error: cannot be read: Input/output error [cannot-read]' % (folder / name)
         for name in ('A.yaml', 'a.rapp')]
 
 
