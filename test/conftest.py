@@ -105,3 +105,38 @@ def server(shared_server):
         if status.state != 'failed':
             shared_server.error('stop_capability', status.capability)
     shared_server.wait_for_all_events()     # so that the next test does not see those of this one
+
+
+@pytest.fixture(scope='session')
+def postgresql():
+    """A PostgreSQL of this process's own (`postgresql_server.Server`)."""
+    pytest.importorskip('sqlalchemy', reason='SQLAlchemy is not installed')
+    pytest.importorskip('psycopg2', reason='psycopg2 is not installed')
+    from postgresql_server import Server, find_binaries
+    if find_binaries() is None:
+        pytest.skip('PostgreSQL is not installed')
+    server = Server()
+    yield server
+    server.remove()
+
+
+@pytest.fixture(params=['sqlite', 'postgresql'])
+def database_url(request, tmp_path):
+    """The URL of an empty database of each kind that is supported."""
+    if request.param == 'postgresql':
+        return request.getfixturevalue('postgresql').new_database()
+    pytest.importorskip('sqlalchemy', reason='SQLAlchemy is not installed')
+    return 'sqlite:///%s' % (tmp_path / 'fleet.db')
+
+
+@pytest.fixture
+def engine(database_url):
+    """An engine for it, which does not wait for the disk."""
+    import sqlalchemy
+    from rocon_uri.resource_database import open_engine
+    engine = open_engine(database_url)
+    if engine.dialect.name == 'sqlite':
+        sqlalchemy.event.listen(engine, 'connect', lambda connection, _: connection.execute(
+            'PRAGMA synchronous = OFF'))
+    yield engine
+    engine.dispose()

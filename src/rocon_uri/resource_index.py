@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 else:
     Resources = MutableMapping
 
-__all__ = ['ResourceIndex']
+__all__ = ['ResourceIndex', 'too_complex']
 
 
 class ResourceIndex(Resources):
@@ -169,12 +169,7 @@ class ResourceIndex(Resources):
                 undecided += unknown
                 yield numbers
         if undecided:
-            text = request.name.string
-            error = PatternTooComplex(
-                'name %s takes too much work to compare with the patterns of %d resources'
-                % (quoted(text), len(undecided)), str(request), 'name', text)
-            error.undecided = [self._resources[number] for number in sorted(undecided)]
-            raise error
+            raise too_complex(request, [self._resources[number] for number in sorted(undecided)])
 
     def __getitem__(self, uri: Resource) -> Any:
         return self._payloads.get(self._numbers[parse(uri)])
@@ -214,6 +209,22 @@ class ResourceIndex(Resources):
 
     def __reduce__(self) -> Tuple[Type[ResourceIndex], Tuple[Dict[RoconURI, Any]]]:
         return type(self), (dict(self),)
+
+
+def too_complex(request: RoconURI, undecided: List[RoconURI]) -> PatternTooComplex:
+    """
+    The error for resources whose pattern takes too much work to compare.
+
+    :param RoconURI request: what they were compared with
+    :param undecided: list of RoconURI, at least one
+    :returns: PatternTooComplex
+    """
+    name = request.name.string
+    error = PatternTooComplex(
+        'name %s takes too much work to compare with the patterns of %d resources'
+        % (quoted(name), len(undecided)), str(request), 'name', name)
+    error.undecided = undecided
+    return error
 
 
 def _kind_key(uri: RoconURI) -> KindKey:

@@ -1,0 +1,123 @@
+"""The statements of SQLite, from 3.31 on."""
+from __future__ import annotations
+
+import json
+import re
+from typing import TYPE_CHECKING, Dict, Iterable, List, Mapping, Tuple
+
+from sqlalchemy.pool import StaticPool
+
+from rocon_uri.name_pattern import Glob, NamePattern
+from rocon_uri.resource_database.dialects import (
+    ADD_KIND, COLUMNS, REPLACE, Condition, Dialect, ranges)
+from rocon_uri.resource_database.engines import raw_connection
+from rocon_uri.resource_database.functions import add_functions
+from rocon_uri.resource_database.names import is_left_to_database
+
+if TYPE_CHECKING:
+    from sqlalchemy.engine import Connection, Engine
+    from sqlalchemy.engine.interfaces import DBAPICursor
+
+    from rocon_uri.resource_database.rows import Fields, Row
+
+__all__ = ['SQLite', 'prepare_file']
+
+_BUSY_MILLISECONDS = 60000      # to wait for another who writes, whose batch takes less than one
+
+
+class SQLite(Dialect):
+    """What SQLite says."""
+
+    now = "((julianday('now') - 2440587.5) * 86400.0)"
+
+    def written(self, statement: str) -> str:
+        return re.sub(r'%\((\w+)\)s', r':\1', statement)
+
+    def begin_reading(self, connection: Connection) -> DBAPICursor:
+        return _begin(connection, 'BEGIN')
+
+    def begin_writing(self, connection: Connection) -> DBAPICursor:
+        return _begin(connection, 'BEGIN IMMEDIATE')
+
+    def streaming_cursor(self, connection: Connection) -> DBAPICursor:
+        return connection.connection.cursor()
+
+    def kinds(self, numbers: List[int]) -> Condition:
+        return Condition('kind IN (SELECT value FROM json_each(%(kinds)s))',
+                         {'kinds': json.dumps(numbers)})
+
+    def pairs(self, pairs: List[Tuple[int, str]]) -> Condition:
+        return Condition(
+            'json_each(%(pairs)s) AS pair CROSS JOIN rocon_uri_resource AS resource '
+            "ON resource.kind = json_extract(pair.value, '$[0]') "
+            "AND resource.name = json_extract(pair.value, '$[1]')", {'pairs': json.dumps(pairs)})
+
+    def names(self, pattern: NamePattern, kinds: str) -> Condition:
+        # A plus keeps a column from being looked up: of the two ends of a name the longer one is,
+        # and names that end alike are not in the order of their kinds.
+        from_end = len(pattern.suffix) > len(pattern.prefix)
+        text, parameters = ranges(pattern, '+name' if from_end else 'name',
+                                  'reversed' if from_end else '+reversed')
+        conditions = [text, '+' + kinds if from_end and kinds else kinds]
+        if is_left_to_database(pattern):
+            conditions.append('name GLOB %(pattern)s' if isinstance(pattern, Glob)
+                              else 'rocon_uri_matches(%(pattern)s, name)')
+            parameters['pattern'] = pattern.text
+        return Condition(' AND '.join(filter(None, conditions)), parameters)
+
+    def numbers(self, cursor: DBAPICursor, count: int) -> Tuple[float, List[int]]:
+        cursor.execute('SELECT %s, (SELECT seq FROM sqlite_sequence '
+                       "WHERE name = 'rocon_uri_resource')" % self.now)
+        now, last = cursor.fetchone()
+        return now, list(range((last or 0) + 1, (last or 0) + 1 + count))
+
+    def add_kinds(self, cursor: DBAPICursor, kinds: Mapping[bytes, Fields]) -> None:
+        cursor.executemany(self.written(ADD_KIND), [
+            dict(fields._asdict(), digest=digest) for digest, fields in kinds.items()])
+
+    def kind_ids(self, cursor: DBAPICursor, digests: Iterable[bytes]) -> Dict[bytes, int]:
+        found = {}
+        for digest in digests:
+            cursor.execute('SELECT id FROM rocon_uri_kind WHERE digest = ?', (digest,))
+            found[digest] = cursor.fetchone()[0]
+        return found
+
+    def add_rows(self, cursor: DBAPICursor, rows: List[Row], now: float) -> None:
+        values = ', '.join('%%(%s)s' % column for column in COLUMNS)
+        statement = self.written('INSERT INTO rocon_uri_resource (%s) VALUES (%s)%s'
+                                 % (', '.join(COLUMNS), values, REPLACE))
+        cursor.executemany(statement, [dict(row._asdict(), now=now) for row in sorted(rows)])
+
+
+def _begin(connection: Connection, statement: str) -> DBAPICursor:
+    cursor = connection.connection.cursor()
+    if 'rocon_uri' not in connection.info:
+        add_functions(cursor.connection)
+        cursor.execute('PRAGMA busy_timeout')
+        if cursor.fetchone()[0] < _BUSY_MILLISECONDS:
+            cursor.execute('PRAGMA busy_timeout = %d' % _BUSY_MILLISECONDS)
+            cursor.fetchall()
+        connection.info['rocon_uri'] = True
+    if not cursor.connection.in_transaction:
+        cursor.execute(statement)
+    return cursor
+
+
+def prepare_file(engine: Engine, create: bool) -> None:
+    """
+    Refuse a database of which each connection would have its own, and let others write.
+
+    :param engine: `sqlalchemy.engine.Engine`
+    :param bool create: set WAL; else change nothing
+    :raises ValueError: for one in memory, unless it has one connection only
+    :raises DatabaseError: if there is no such file, and it cannot be created
+    """
+    with raw_connection(engine) as cursor:
+        cursor.execute('PRAGMA database_list')
+        is_file = any(name == 'main' and path for _, name, path in cursor.fetchall())
+        if not is_file and not isinstance(engine.pool, StaticPool):
+            raise ValueError('SQLite in memory needs an engine with poolclass=StaticPool: else '
+                             'each connection has a database of its own')
+        if is_file and create:
+            cursor.execute('PRAGMA journal_mode = WAL')
+            cursor.fetchall()
