@@ -91,7 +91,8 @@ class TestAnswers:
                  '(a|b).*', 'z.e']
         patterns = names + ['B*', 'bo*', '*_1', '*b*', 'a_*', 'a*b', '*1*2', '[A-Z].*', 'a{255}',
                             r'\w\d.*', r'[^a-c]\D+', '(bob|zoe)_?', 'bob_[0-9]{1,2}', '(a|)(b|)_b',
-                            'a{2,255}', '(a{100}){2}a*', '(bo?b?)+', '.{3}', 'b(o(b|)|)', 'x*y*zo.']
+                            'a{2,255}', '(a{100}){2}a*', '(bo?b?)+', '.{3}', 'b(o(b|)|)', 'x*y*zo.',
+                            '(bob|a_b)', '(bob_1|zo|a.*)']
         resources = ['rocon:/%s/%s' % (platform, name)
                      for name in names for platform in ('pr2', 'kobuki')]
         fleet.add_all(resources)

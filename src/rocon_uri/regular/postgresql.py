@@ -25,10 +25,10 @@ def expression(tree: Node) -> str:
     :returns: str, in PostgreSQL's advanced syntax
 
     >>> from rocon_uri.regular.syntax import parse
-    >>> expression(parse('(a|bc){2,300}[a-c]?'))
-    '^(?:a|bc){2,255}(?:a|bc){0,45}[abc]?$'
+    >>> expression(parse('(a{200}){2}|b_[a-c]?'.join('()')))
+    '^(?:a{255,255}a{145,145}|b_[abc]?)$'
     """
-    return '^%s$' % _written(tree.key)
+    return '^%s$' % _part(tree.key)
 
 
 def _written(key: _Key) -> str:
@@ -38,13 +38,17 @@ def _written(key: _Key) -> str:
         members = ''.join(char for bit, char in enumerate(ALPHABET) if chars >> bit & 1)
         return members if len(members) == 1 else '[%s]' % members
     if kind == 'sequence':
-        return ''.join(_group(part) if part[0] == 'choice' else _written(part)
-                       for part in cast(List[_Key], parts))
+        return ''.join(map(_part, cast(List[_Key], parts)))
     if kind == 'choice':
         return '|'.join(map(_written, cast(List[_Key], parts)))
     item, least, most = cast(Tuple[_Key, int, Optional[int]], tuple(parts))
     single = _written(item) if item[0] == 'characters' else _group(item)
     return ''.join(single + count for count in _counts(least, most))
+
+
+def _part(key: _Key) -> str:
+    """What may stand beside others."""
+    return _group(key) if key[0] == 'choice' else _written(key)
 
 
 def _group(key: _Key) -> str:

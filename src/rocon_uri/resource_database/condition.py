@@ -51,10 +51,12 @@ def condition(request: Union[str, RoconURI], *,
 
     >>> from sqlalchemy import column
     >>> from sqlalchemy.dialects import sqlite
-    >>> print(condition('rocon:/*/bob', name=column('name')).compile(dialect=sqlite.dialect()))
-    (name IS NULL OR name IN (?, ?, ?))
+    >>> wanted = condition('rocon:/*/bob', name=column('nick')).compile(dialect=sqlite.dialect())
+    >>> 'nick' in str(wanted), 'bob' in str(wanted), 'bob' in str(wanted.params)
+    (True, False, True)
     """
     request = parse(request)
+    request = parse(request, completed(request.vocabulary))     # with all members of groups
     parts: List[ColumnElement] = []
     if concert_name is not None and request.concert_name:
         parts.append(_any_of(concert_name, [request.concert_name]))
@@ -74,7 +76,6 @@ def _any_of(column: ColumnElement, values: List[str]) -> ColumnElement:
 
 def _overlapping(field: ValuesField) -> List[str]:
     """The values asked for, their members, and the groups that contain one of these."""
-    field = field.in_vocabulary(completed(field.vocabulary))
     known = field.vocabulary.field(field.field_name)
     return [value for value in known if known.mask(value) & field.mask] + sorted(field.others)
 

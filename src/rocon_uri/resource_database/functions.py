@@ -29,6 +29,7 @@ def register(engine: Engine) -> None:
     :param engine: `sqlalchemy.engine.Engine`
     :raises NotImplementedError: for another dialect, which the error names
 
+    >>> from rocon_uri.resource_database import open_engine
     >>> register(open_engine('sqlite:///fleet.db'))
     """
     check_dialect(engine.dialect.name)
