@@ -176,13 +176,14 @@ class Server:
             rospy.Subscriber(self.name + '/status', CapabilityStatuses, self._keep_status)]
         self.process = None
         self.arguments = arguments
+        self.package_path = str(robot.workspace)
         self.program = program
 
     def start(self, sigint=signal.SIG_DFL):
         """Start the process, with a disposition of SIGINT, and wait for nothing."""
         with open(self.log, 'ab') as log:
             self.process = subprocess.Popen(
-                [sys.executable, '-c', self.program, str(self.robot.workspace),
+                [sys.executable, '-c', self.program, self.package_path,
                  '__name:=' + self.name.rpartition('/')[2], *self.arguments],
                 env=dict(self.robot.server_environment,
                          ROS_NAMESPACE=self.name.rpartition('/')[0] or '/'),

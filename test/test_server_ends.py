@@ -142,6 +142,26 @@ def test_a_restarted_server_finds_no_survivors(robot):
         server.wait_for('Nav', 'running')
 
 
+def test_a_server_that_restarts_while_the_watcher_is_at_work(robot):
+    """A11: it ends the rest itself, and the watcher does not touch what it starts"""
+    server = robot.server(WITHOUT)
+    with server:
+        server.start_capability('Stubborn')
+        server.stubborn_node_pid('stubborn')
+        before = set(server.processes())
+        [watcher] = [pid for pid in children(server.process.pid) if pid not in before]
+        server.end(signal.SIGKILL)
+    server.process = None
+    with server:
+        assert not before & set(server.processes())
+        assert 'left by an earlier run' in server.log.read_text()
+        server.start_capability('Stubborn')
+        node = server.stubborn_node_pid('stubborn')
+        eventually(lambda: not os.path.exists('/proc/%d' % watcher))
+        assert server.status('Stubborn').state == 'running'
+        assert server.stubborn_node_pid('stubborn') == node
+
+
 def children(pid):
     """The processes that a process has started."""
     with open('/proc/%d/task/%d/children' % (pid, pid)) as file:
