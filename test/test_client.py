@@ -229,6 +229,21 @@ def test_the_end_of_the_server_is_told_and_the_bond_made_anew(robot, lost):
         client.shutdown()
 
 
+def test_a_server_that_restarts_at_once_is_told_as_such(robot, lost):
+    server = robot.server({'nodelet_manager': False})
+    with server:
+        client = CapabilitiesClient(server.name, on_lost=lambda *what: lost.put(what))
+        client.use_capability('robot/Base')
+        os.kill(server.process.pid, signal.SIGKILL)
+        server.process.wait()
+        server.start()
+        interface, text = lost.get(timeout=40)
+        assert interface == 'robot/Base'
+        assert text in ('the capability server was restarted',
+                        'the bond with the capability server was broken')
+        client.shutdown()
+
+
 # -- specs over a service --------------------------------------------------------------------------
 
 @pytest.mark.parametrize('slash', ['', '/'])

@@ -6,12 +6,15 @@ import queue
 import threading
 from typing import Callable, Dict, NamedTuple, Optional, Tuple
 
+import rosgraph
 import rospy
 
 from capabilities.msg import CapabilityStatuses
 from capabilities.srv import GetSemanticInterfaces, GetStatus
 
 __all__ = ['LostWatch']
+
+_STOPPED = 'it was stopped'
 
 _logger = logging.getLogger('rosout.capabilities')
 
@@ -23,6 +26,8 @@ class _Use(NamedTuple):
     entry: str
     #: stamp of the first status that listed it; earlier ones are ignored
     stamp: rospy.Time
+    #: address of the server then, '' if it is not known
+    address: str
 
 
 class LostWatch:
@@ -36,24 +41,26 @@ class LostWatch:
 
     def __init__(self, on_lost: Callable[[str, str], object], server: str) -> None:
         self._on_lost = on_lost
+        self._server = rospy.resolve_name(server)
         self._get_status = rospy.ServiceProxy(server + '/get_status', GetStatus)
         self._get_semantic_interfaces = rospy.ServiceProxy(server + '/get_semantic_interfaces',
                                                            GetSemanticInterfaces)
         self._used: Dict[str, _Use] = {}
         self._lock = threading.Lock()
-        self._lost: 'queue.Queue[Tuple[str, str]]' = queue.Queue()
+        self._lost: 'queue.Queue[Tuple[str, str, str]]' = queue.Queue()
         self._thread: Optional[threading.Thread] = None
 
     def used(self, interface: str, provider: Optional[str]) -> None:
         """The client uses a capability, by this provider if it named one."""
         try:
+            address = self._address()
             status = self._get_status().status
             entry = self._entry(status, interface, provider)
         except rospy.ServiceException as error:     # the bond will tell
             _logger.warning('the status of the capability server is not known: %s', error)
             return
         with self._lock:
-            self._used.setdefault(interface, _Use(entry, status.header.stamp))
+            self._used.setdefault(interface, _Use(entry, status.header.stamp, address))
         self.status(status)
 
     def _entry(self, status: CapabilityStatuses, interface: str, provider: Optional[str]) -> str:
@@ -101,23 +108,32 @@ class LostWatch:
         lost = {}
         with self._lock:
             for interface, use in list(self._used.items()):
-                text = texts.get(use.entry, 'it was stopped')
+                text = texts.get(use.entry, _STOPPED)
                 if text and status.header.stamp >= use.stamp:
-                    lost[interface] = text
+                    lost[interface] = text, use.address
                     del self._used[interface]
-        for interface, text in lost.items():
-            self._tell(interface, text)
+        for interface, (text, address) in lost.items():
+            self._tell(interface, text, address)
 
-    def _tell(self, interface: str, text: str) -> None:
+    def _address(self) -> str:
+        """The address of the server's node, of which each run has another."""
+        try:
+            return str(rosgraph.Master(rospy.get_name()).lookupNode(self._server))
+        except (OSError, rosgraph.MasterException):
+            return ''
+
+    def _tell(self, interface: str, text: str, address: str = '') -> None:
         with self._lock:
             if self._thread is None:
                 self._thread = threading.Thread(target=self._run, daemon=True)
                 self._thread.start()
-        self._lost.put((interface, text))
+        self._lost.put((interface, text, address))
 
     def _run(self) -> None:
         while True:
-            interface, text = self._lost.get()
+            interface, text, address = self._lost.get()
+            if text == _STOPPED and address and self._address() not in ('', address):
+                text = 'the capability server was restarted'
             try:
                 self._on_lost(interface, text)
             except Exception:
