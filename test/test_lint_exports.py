@@ -84,7 +84,7 @@ def test_an_attribute_or_a_text_that_nobody_sees_is_a_warning(found, export, pro
     ('<test_depend>app_manager</test_depend>', True)])
 def test_app_manager_asks_only_packages_that_depend_on_it(found, dependency, is_found):
     findings = found(lambda text: exporting('<app_manager app_dir="${prefix}/apps"/>')(
-        text).replace('<export>', dependency + '<export>'))
+        text).replace('<export>', dependency + '<export>'), apps__readme_txt='')
     assert [finding[2] for finding in findings] == ['no-app-manager-dependency'] * is_found
 
 
@@ -129,6 +129,61 @@ def test_an_exported_link_is_that_of_its_file(found, tmp_path):
         (tmp_path / 'ours' / 'link.rapp').symlink_to('dance.rapp')
         return exporting('<rocon_app>link.rapp</rocon_app>')(text)
     assert found(edit, dance_rapp=RAPP) == []
+
+
+APP = '{platform: all, interface: ours/a.interface, launch: ours/a.launch}'
+
+
+def apps(found, listed='ours/dance', exported='apps', **files):
+    """What is found where the package exports a folder to app_manager."""
+    return [(path, fault_id) for path, _, fault_id, _ in found(
+        lambda text: text.replace('<export>', '<depend>app_manager</depend>\n  <export>').replace(
+            '<export>\n', '<export><app_manager app_dir="${prefix}/%s"/>\n' % exported),
+        apps__x_installed='apps: [{app: %s}]' % listed, a_interface='{}', a_launch='<launch/>',
+        **files) if fault_id in ('not-listed', 'outside-app-dir')]
+
+
+@pytest.mark.parametrize('files, findings', [
+    ({'apps__dance_app': APP}, []),
+    ({'elsewhere__dance_app': APP}, []),
+    ({'apps__dance_app': APP, 'sing_app': APP}, [('sing.app', 'not-listed')]),
+    ({'dance_app': APP, 'test__sing_app': APP}, []),
+    ({'dance_app': APP, 'apps__below__y_installed': 'apps: []'},
+     [('apps/below/y.installed', 'outside-app-dir')]),
+    ({'dance_app': APP, 'y_installed': 'apps: []'}, [('y.installed', 'outside-app-dir')]),
+    ({'dance_app': APP, 'sing_app': APP, 'y_installed': 'apps: [{app: ours/sing}]'},
+     [('sing.app', 'not-listed'), ('y.installed', 'outside-app-dir')]),
+    ({'dance_app': APP, 'sing_app': APP, 'apps__y_installed': 'apps: [{app: ours/sing}]'}, []),
+])
+def test_an_app_is_listed_by_an_installed_file_that_counts(found, files, findings):
+    assert apps(found, **files) == findings
+
+
+def test_an_app_of_another_package_is_none_of_this_one(found):
+    assert apps(found, listed='theirs/dance', dance_app=APP) == [('dance.app', 'not-listed')]
+
+
+@pytest.mark.parametrize('path, problem', [
+    ('${prefix}/apps', None), ('.', None),
+    ('${prefix}/app', "exported folder './app' does not exist"),
+    ('a.rapp', "exported folder 'a.rapp' is not a directory"),
+    ('..', "exported folder '..' is outside the package")])
+def test_an_app_dir_is_a_folder_of_the_package(found, path, problem):
+    findings = found(lambda text: text.replace('<export>', '<depend>app_manager</depend><export>')
+                     .replace('<export>\n', '<export><app_manager app_dir="%s"/>' % path),
+                     apps__readme_txt='', a_rapp=RAPP)
+    assert [finding[3] for finding in findings if finding[2] != 'not-exported'] == (
+        [] if problem is None else [problem])
+
+
+def test_without_an_app_dir_nothing_is_listed(found):
+    assert apps(found, exported='none', dance_app=APP) == [
+        ('apps/x.installed', 'outside-app-dir'), ('dance.app', 'not-listed')]
+
+
+def test_a_list_that_cannot_be_read_is_that_and_no_more(found):
+    findings = apps(found, listed='[', dance_app=APP)
+    assert findings == [('dance.app', 'not-listed')]
 
 
 # What catkin refuses

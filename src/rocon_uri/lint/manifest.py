@@ -1,11 +1,12 @@
 """Checks a ``package.xml`` that names its package, and its exports."""
 from __future__ import annotations
 
+import os
 from typing import Dict, List, NamedTuple, Sequence
 from xml.parsers import expat
 
 from capabilities.discovery import EXPORTS, catkin_package
-from rocon_uri.lint.checked_file import CheckedFile
+from rocon_uri.lint.checked_file import CheckedFile, is_inside
 from rocon_uri.lint.finding import Finding
 from rocon_uri.sources.located import Place
 from rocon_uri.sources.packages import Export, Package, PackageError, read_manifest
@@ -44,6 +45,8 @@ def check_manifest(package: Package) -> List[Finding]:
                     quoted('<%s>' % export.tag), did_you_mean(near)), place, 'unknown-export')
             continue
         _check_attributes(export, file)
+        if export.tag == 'app_manager':
+            _check_app_dir(export, package, file)
         name = export.file('rules' if export.tag == 'rocon_uri' else '')
         if export.tag not in FILE_EXPORTS and not (export.tag == 'rocon_uri' and name):
             continue
@@ -82,6 +85,20 @@ def _check_attributes(export: Export, file: CheckedFile) -> None:
     elif expected is not None and not export.attributes:
         file.warn('%s has no attribute %s' % (quoted('<%s>' % export.tag), quoted(expected)),
                   place, 'export-attribute')
+
+
+def _check_app_dir(export: Export, package: Package, file: CheckedFile) -> None:
+    """Check that the folder of a package that has its .installed files is there."""
+    name = export.file('app_dir')
+    path = os.path.normpath(os.path.join(package.folder, name))
+    place = export.line, export.column
+    if name and not is_inside(path, package.folder):
+        file.error('exported folder %s is outside the package' % quoted(name), place,
+                   'file-outside')
+    elif name and not os.path.isdir(path):
+        file.error('exported folder %s %s' % (
+            quoted(name), 'is not a directory' if os.path.exists(path) else 'does not exist'),
+            place, 'file-missing')
 
 
 class _Element(NamedTuple):

@@ -1,5 +1,5 @@
 """
-Finds the apps and specs of a package that nobody sees, since no export names them.
+Finds the apps and specs of a package that nobody sees, since no export leads to them.
 
 Nothing is looked for below a folder ``test`` or ``tests``. Interactions are named by no export, and
 files of rules cannot be told from other YAML.
@@ -9,6 +9,8 @@ from __future__ import annotations
 import os
 from typing import Iterable, List, Set
 
+from rocon_uri.apps.app_file import InvalidApp
+from rocon_uri.apps.installed import installed_apps, installed_files
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import Finding
 from rocon_uri.lint.manifest import FILE_EXPORTS
@@ -25,7 +27,7 @@ _TAGS = {'interface': 'capability_interface', 'provider': 'capability_provider',
 
 def check_unexported(package: Package, paths: Iterable[str]) -> List[Finding]:
     """
-    Find the rapps and specs of a package that no export names.
+    Find the apps and specs of a package that no export leads to.
 
     :param Package package: the package
     :param paths: iterable of str, the files in it
@@ -34,16 +36,42 @@ def check_unexported(package: Package, paths: Iterable[str]) -> List[Finding]:
     exported: Set[str] = set()
     for tag in FILE_EXPORTS:
         exported.update(map(os.path.realpath, package.files(tag)))
+    installed = set(map(os.path.realpath, installed_files(package)))
+    listed = _listed_apps(package)
     findings: List[Finding] = []
     for path in paths:
-        tag = '' if _is_test(path, package) or os.path.realpath(path) in exported else _tag_of(path)
-        if tag:
-            file = CheckedFile(path, package.folder)
-            file.warn('no export names this file, so nobody sees it (expected %s in package.xml)'
-                      % quoted('<%s>%s</%s>' % (tag, os.path.relpath(path, package.folder), tag)),
-                      (1, 1), 'not-exported')
-            findings += file.findings
+        if _is_test(path, package):
+            continue
+        file = CheckedFile(path, package.folder)
+        name, suffix = os.path.splitext(os.path.basename(path))
+        if suffix == '.installed' and os.path.realpath(path) not in installed:
+            file.warn('the file is in no folder that the package exports as app_dir, so '
+                      'app_manager does not read it', (1, 1), 'outside-app-dir')
+        elif suffix == '.app' and name not in listed:
+            file.warn('no .installed file of the package lists this app, so app_manager does not '
+                      "know it (expected 'app: %s/%s')" % (package.name, name), (1, 1),
+                      'not-listed')
+        elif os.path.realpath(path) not in exported:
+            tag = _tag_of(path)
+            if tag:
+                file.warn(
+                    'no export names this file, so nobody sees it (expected %s in package.xml)'
+                    % quoted('<%s>%s</%s>' % (tag, os.path.relpath(path, package.folder), tag)),
+                    (1, 1), 'not-exported')
+        findings += file.findings
     return findings
+
+
+def _listed_apps(package: Package) -> Set[str]:
+    """The names, without the package, of its apps that its .installed files list."""
+    names: Set[str] = set()
+    for path in installed_files(package):
+        try:
+            listed = [name.partition('/') for name, _ in installed_apps(path)]
+        except InvalidApp:      # which is a finding
+            continue
+        names.update(name for owner, _, name in listed if owner == package.name)
+    return names
 
 
 def _is_test(path: str, package: Package) -> bool:
