@@ -12,7 +12,8 @@ from made_packages import make_package
 from sources import ROOT
 
 from rocon_uri.cli import main
-from rocon_uri.spec_graph import Edge, Node, SpecGraph, dot_text
+from rocon_uri.spec_graph import Edge, Node, SpecGraph
+from rocon_uri.spec_picture import dot_text
 
 EXAMPLES = ROOT / 'examples' / 'workspace'
 CORPUS = os.environ.get('ROCON_URI_CORPUS')
@@ -272,8 +273,8 @@ def test_what_is_named_and_not_there_is_in_the_graph(specs, tmp_path):
     make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp')],
                  dance_rapp='required_capabilities: [{name: ours/Legs}]')
     _, out, _ = specs('graph', '--package-path', tmp_path)
-    assert '"ours/Legs" [label="Legs\\nours", shape=box, style=dashed, color="#cc0000"' in out
-    assert '"#ours/dance" -> "ours/Legs" [label="requires"' in out
+    assert '"ours/Legs" [label="Legs\\nnot there", shape=box, style="filled,dashed"' in out
+    assert '"#ours/dance" -> "ours/Legs" [arrowhead=vee' in out
 
 
 HOSTILE = 'a"];\\x -> "</svg>\n\u202e\udcff<b>&amp;\\'
@@ -291,7 +292,7 @@ def test_any_name_can_be_drawn():
 
 @needs_dot
 @pytest.mark.parametrize('name, start', [('x.svg', b'<?xml'), ('x.PNG', b'\x89PNG'),
-                                         ('x.dot', b'digraph')])
+                                         ('x.pdf', b'%PDF'), ('x.dot', b'digraph')])
 def test_graph_writes_a_picture(specs, tmp_path, name, start):
     assert specs('graph', '--package-path', EXAMPLES, '--output', tmp_path / name) == (0, '', '')
     assert (tmp_path / name).read_bytes().startswith(start)
@@ -299,7 +300,7 @@ def test_graph_writes_a_picture(specs, tmp_path, name, start):
 
 @needs_dot
 @pytest.mark.parametrize('name, problem', [
-    ('x.jpg', 'ends in none of .dot, .svg and .png'), ('gone/x.svg', 'cannot draw'),
+    ('x.jpg', 'ends in none of .dot, .svg, .png and .pdf'), ('gone/x.svg', 'cannot draw'),
     ('gone/x.dot', 'cannot write')])
 def test_graph_that_cannot_be_written_is_an_error(specs, tmp_path, name, problem):
     status, out, err = specs('graph', '--package-path', EXAMPLES, '--output', tmp_path / name)
@@ -310,3 +311,90 @@ def test_graph_without_graphviz_says_what_to_do(specs, tmp_path, monkeypatch):
     monkeypatch.setenv('PATH', str(tmp_path))
     status, _, err = specs('graph', '--package-path', EXAMPLES, '--output', tmp_path / 'x.svg')
     assert status == 2 and 'install graphviz' in err
+
+
+@pytest.fixture
+def graph(capsys):
+    """The nodes by id and the edges of the graph of the examples, as the verb has them in JSON."""
+    def run(*arguments, package_path=EXAMPLES):
+        main(['specs', 'graph', '--json', '--package-path', str(package_path),
+              *map(str, arguments)])
+        answer = json.loads(capsys.readouterr().out)
+        return {node['id']: node for node in answer['nodes']}, answer['edges']
+    return run
+
+
+def states(nodes):
+    return {key.rpartition('/')[2]: (node['state'], node['fault']) for key, node in nodes.items()}
+
+
+def test_the_graph_shows_what_is_wrong_and_why(graph):
+    nodes, _ = graph()
+    found = states(nodes)
+    assert found['Lift'] == ('fails', 'no-provider')
+    assert found['Speech'] == ('fails', 'ambiguous')
+    assert found['serve'] == found['greet'] == ('fails', '')
+    assert {found[name] for name in ('carry', 'radio', 'patrol', 'MobileBase')} == {('', '')}
+    assert 'no provider implements it' in nodes['cafe_capabilities/Lift']['problem']
+
+
+def test_the_graph_shows_what_a_robot_can_run(graph):
+    found = states(graph('--robot', 'rocon:/turtlebot2/bob', '--defaults',
+                         EXAMPLES / 'defaults.yaml')[0])
+    assert {name for name, (state, _) in found.items() if state == 'runs'} == {
+        'patrol', 'greet', 'radio', 'MobileBase', 'turtlebot_base', 'FrontCamera', 'front_camera',
+        'Speech', 'festival'}
+    assert found['carry'] == found['fetch_a_drink'] == ('fails', 'platform')
+    assert found['espeak'] == ('unused', '')
+
+
+def test_the_graph_of_one_app_has_what_it_needs(graph, specs):
+    nodes, edges = graph('--app', 'cafe_rapps/greet')
+    assert set(nodes) == {'#cafe_rapps/greet', 'cafe_capabilities/Speech',
+                          'cafe_capabilities/espeak', 'cafe_capabilities/festival'}
+    assert {edge['kind'] for edge in edges} == {'requires', 'implements'}
+    status, _, err = specs('graph', '--app', 'cafe_rapps/gret', '--package-path', EXAMPLES)
+    assert status == 2 and "did you mean 'cafe_rapps/greet'?" in err
+
+
+def test_launch_files_and_cycles_are_in_the_graph(graph, tmp_path):
+    interface = '{name: %s, spec_version: 1, spec_type: interface, interface: }'
+    provider = '{name: %s, spec_version: 1, spec_type: provider, implements: ours/%s, %s}'
+    make_package(
+        tmp_path, 'ours', [('capability_interface', 'A.yaml'), ('capability_interface', 'B.yaml'),
+                           ('capability_provider', 'a.yaml'), ('capability_provider', 'b.yaml'),
+                           ('capability_provider', 'c.yaml'), ('rocon_app', 'dance.rapp')],
+        A_yaml=interface % 'A', B_yaml=interface % 'B',
+        a_yaml=provider % ('a', 'A', 'depends_on: {ours/B: {provider: ours/b}}'),
+        b_yaml=provider % ('b', 'B', 'depends_on: {ours/A: {provider: ours/a}}'),
+        c_yaml=provider % ('c', 'B', 'launch_file: gone.launch'),
+        dance_rapp='{compatibility: "rocon:/", launch: gone.launch}')
+    found = states(graph(package_path=tmp_path)[0])
+    assert found == {'A': ('', ''), 'B': ('', ''), 'a': ('fails', 'cycle'), 'b': ('fails', 'cycle'),
+                     'c': ('fails', 'launch-missing'), 'dance': ('fails', 'launch-missing')}
+
+
+def test_the_picture_reads_from_the_app_to_the_provider_and_has_frames_and_a_legend(specs):
+    _, out, _ = specs('graph', '--package-path', EXAMPLES)
+    assert '"cafe_capabilities/Speech" -> "cafe_capabilities/espeak" [arrowhead=empty' in out
+    assert '"#cafe_rapps/greet" -> "cafe_capabilities/Speech"' in out
+    assert out.count('subgraph "cluster_') == 3 and 'subgraph "cluster_cafe_rapps"' in out
+    assert 'does not work, and why' in out and 'white head: is implemented by' in out
+    assert r'"cafe_capabilities/Lift" [label="Lift\nno provider"' in out
+
+
+@needs_dot
+def test_the_picture_of_many_apps_has_the_proportions_of_a_screen(specs, tmp_path):
+    for number in range(4):
+        make_package(tmp_path, 'caps_%d' % number, [('capability_interface', 'Base.yaml')],
+                     Base_yaml='{name: Base, spec_version: 1, spec_type: interface, interface: }')
+        make_package(
+            tmp_path, 'apps_%d' % number,
+            [('rocon_app', 'a%d.rapp' % app) for app in range(10)],
+            **{'a%d_rapp' % app: '{compatibility: "rocon:/", launch: a.launch, '
+               'required_capabilities: [{name: caps_%d/Base}]}' % ((number + app) % 4)
+               for app in range(10)})
+    assert specs('graph', '--package-path', tmp_path, '--output', tmp_path / 'x.svg')[0] == 0
+    root = ElementTree.parse(str(tmp_path / 'x.svg')).getroot()
+    width, height = (float(root.get(key)[:-2]) for key in ('width', 'height'))
+    assert 0.4 <= height / width <= 0.8

@@ -28,7 +28,7 @@ LEVELS = (
     ('resource_database',),
     ('resource_directory',),
     ('apps',),
-    ('workspace', 'spec_graph'),
+    ('workspace', 'spec_graph', 'spec_picture'),
     ('lint',),
     ('cli', 'directory_node'),
 )

@@ -1,21 +1,31 @@
 """
-What depends on what among interfaces, semantic interfaces, providers and apps, as a picture.
+What depends on what among apps, capabilities and providers, what is wrong, and what is not used.
 
->>> from capabilities.spec_index import SpecIndex
->>> print(dot_text(spec_graph(SpecIndex(), {})).splitlines()[0])
-digraph capabilities {
+>>> from rocon_uri.workspace import load_workspace
+>>> spec_graph(load_workspace({}))
+SpecGraph(nodes={}, edges=[])
 """
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Collection, Dict, List, Mapping, NamedTuple, Optional
+from typing import Collection, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Set
 
-from rocon_uri.sources.wording import printable
+from capabilities.planning.faults import Fault, FaultKind
+from capabilities.planning.planner import Planner
+from rocon_uri.apps.runnable import App, Verdict, runnable
+from rocon_uri.uri import RoconURI, parse
+from rocon_uri.workspace import Workspace
 
-if TYPE_CHECKING:
-    from capabilities.spec_index import SpecIndex
-    from rocon_uri.apps.rapp import Rapp
+__all__ = ['Edge', 'FAILS', 'Node', 'RUNS', 'SpecGraph', 'UNUSED', 'app_id', 'spec_graph']
 
-__all__ = ['Edge', 'Node', 'SpecGraph', 'dot_text', 'spec_graph']
+#: the states of nodes: it is part of what the robot can run
+RUNS = 'runs'
+#: it is at fault, or an app that cannot run
+FAILS = 'fails'
+#: no app needs it
+UNUSED = 'unused'
+
+#: faults that are there only because all providers are planned at once
+_OF_SEVERAL = (FaultKind.CONFLICT, FaultKind.LAUNCH_SHARED)
 
 
 class Node(NamedTuple):
@@ -23,8 +33,14 @@ class Node(NamedTuple):
 
     #: its name, ``package/name``
     name: str
-    #: a key of `_NODE_STYLES`
+    #: 'interface', 'semantic interface', 'provider', 'app', 'virtual app' or 'missing'
     kind: str
+    #: `RUNS`, `FAILS`, `UNUSED`, or '' for none of them
+    state: str = ''
+    #: the id of what is wrong with itself, as `REASON_IDS` has it; '' for nothing
+    fault: str = ''
+    #: what is wrong with itself, one line; '' for nothing
+    problem: str = ''
 
 
 class Edge(NamedTuple):
@@ -34,7 +50,7 @@ class Edge(NamedTuple):
     start: str
     #: the id of the node that it ends at
     end: str
-    #: a key of `_EDGE_STYLES`
+    #: 'implements', 'redefines', 'depends on', 'requires' or 'inherits from'
     kind: str
     #: for a dependency the name of the preferred provider, if there is one
     preferred: Optional[str]
@@ -43,95 +59,140 @@ class Edge(NamedTuple):
 class SpecGraph(NamedTuple):
     """What depends on what. What is named and does not exist is a node of the kind 'missing'."""
 
-    #: the nodes by id: the name, with a # before that of an app, as in a rocon URI
+    #: the nodes by id: the name, but for an app `app_id`
     nodes: Dict[str, Node]
     #: the arrows
     edges: List[Edge]
 
 
-_NODE_STYLES = {
-    'interface': 'shape=box, style=filled, fillcolor="#cfe2f3"',
-    'semantic interface': 'shape=box, style="filled,rounded", fillcolor="#d9ead3"',
-    'provider': 'shape=ellipse, style=filled, fillcolor="#fff2cc"',
-    'app': 'shape=component, style=filled, fillcolor="#ead1dc"',
-    'virtual app': 'shape=component, style="filled,dashed", fillcolor="#f3f3f3"',
-    'missing': 'shape=box, style=dashed, color="#cc0000", fontcolor="#cc0000"',
-}
-_RUNNING = ', penwidth=3, color="#38761d"'
-_EDGE_STYLES = {
-    'implements': 'arrowhead=empty',
-    'redefines': 'arrowhead=empty, style=dashed',
-    'depends on': 'arrowhead=vee',
-    'requires': 'arrowhead=vee, color="#a64d79"',
-    'inherits from': 'arrowhead=empty, style=dotted, color="#a64d79"',
-}
+def app_id(app: App) -> str:
+    """The id of an app: its name with a # before, as in a rocon URI; of a .app file also '.app'."""
+    return '#%s%s' % (app.name, '.app' if app.form == 'app' else '')
 
 
-def spec_graph(spec_index: SpecIndex, rapps: Mapping[str, Rapp]) -> SpecGraph:
+def spec_graph(exported: Workspace, robot: Optional[RoconURI] = None,
+               defaults: Optional[Mapping[str, str]] = None,
+               names: Collection[str] = ()) -> SpecGraph:
     """
-    The graph of all that packages export; the rapps are given by name.
+    The graph of all that packages export.
 
-    >>> from capabilities.spec_index import SpecIndex
-    >>> from rocon_uri.apps.rapp import rapp_from_string
-    >>> dance = rapp_from_string('required_capabilities: [{name: ours/Legs}]', 'ours/dance')
-    >>> sorted(spec_graph(SpecIndex(), {'ours/dance': dance}).nodes.items())
-    [('#ours/dance', Node(name='ours/dance', kind='virtual app')), \
-('ours/Legs', Node(name='ours/Legs', kind='missing'))]
+    :param Workspace exported: what they export
+    :param robot: RoconURI, what apps are judged for; None if their platforms do not matter
+    :param defaults: mapping from capabilities to their default providers
+    :param names: collection of str, the apps that are drawn, with what they need; all if empty
+    :returns: `SpecGraph`
     """
+    apps = [app for app in exported.apps() if not names or app.name in names]
+    judged_for = robot or parse('rocon:/', exported.vocabulary)
+    verdicts = [runnable(app, judged_for, exported.spec_index, defaults, exported.launch_files)
+                for app in apps]
     nodes = {name: Node(name, spec.spec_type.replace('_', ' '))
-             for name, spec in spec_index.specs.items()}
-    for name, rapp in rapps.items():
-        nodes['#' + name] = Node(name, 'app' if rapp.is_implementation else 'virtual app')
-    edges: List[Edge] = []
-    for name, semantic in spec_index.semantic_interfaces.items():
-        edges.append(Edge(name, semantic.redefines, 'redefines', None))
-    for name, provider in spec_index.providers.items():
-        edges.append(Edge(name, provider.implements, 'implements', None))
-        edges += [Edge(name, needed.capability_name, 'depends on', needed.preferred_provider)
-                  for needed in provider.dependencies.values()]
-    for name, rapp in rapps.items():
-        if rapp.parent_name is not None:
-            edges.append(Edge('#' + name, '#' + rapp.parent_name, 'inherits from', None))
-        edges += [Edge('#' + name, needed.name, 'requires', None)
-                  for needed in rapp.required_capabilities]
+             for name, spec in exported.spec_index.specs.items()}
+    for app in exported.apps():
+        nodes[app_id(app)] = Node(app.name, 'app' if app.is_implementation else 'virtual app')
+    edges = list(_edges(exported))
     for edge in edges:
-        nodes.setdefault(edge.end, Node(edge.end, 'missing'))
+        nodes.setdefault(edge.end, Node(edge.end.lstrip('#'), 'missing', FAILS, 'missing',
+                                        'no package exports it'))
+    if names:
+        reached = _reached([app_id(app) for app in apps], edges)
+        nodes = {key: node for key, node in nodes.items() if key in reached}
+        edges = [edge for edge in edges if edge.start in nodes and edge.end in nodes]
+    _mark(nodes, edges, verdicts, robot is not None)
+    for fault in _provider_faults(exported, defaults):
+        _mark_fault(nodes, fault)
     return SpecGraph(nodes, edges)
 
 
-def dot_text(graph: SpecGraph, running: Collection[str] = ()) -> str:
-    """
-    The graph in the language of graphviz, the content of a ``.dot`` file.
-
-    The capabilities and providers that are running have a thick green outline.
-
-    >>> print(dot_text(SpecGraph({'ours/Legs': Node('ours/Legs', 'interface')}, [])))
-    digraph capabilities {
-      rankdir=LR;
-      node [fontname="Helvetica", fontsize=11];
-      edge [fontname="Helvetica", fontsize=9];
-      "ours/Legs" [label="Legs\\nours", shape=box, style=filled, fillcolor="#cfe2f3"];
-    }
-    """
-    lines = ['digraph capabilities {', '  rankdir=LR;',
-             '  node [fontname="Helvetica", fontsize=11];',
-             '  edge [fontname="Helvetica", fontsize=9];']
-    for identity, node in graph.nodes.items():
-        package, _, own_name = node.name.rpartition('/')
-        lines.append('  "%s" [label="%s\\n%s", %s];' % (
-            _escaped(identity), _escaped(own_name), _escaped(package),
-            _NODE_STYLES[node.kind] + _RUNNING * (identity in running)))
-    for edge in graph.edges:
-        label, style = edge.kind, _EDGE_STYLES[edge.kind]
-        if edge.preferred is not None:
-            label += '\\nby %s' % _escaped(edge.preferred)
-            if edge.preferred not in graph.nodes:
-                style += ', fontcolor="#cc0000"'
-        lines.append('  "%s" -> "%s" [label="%s", %s];' % (
-            _escaped(edge.start), _escaped(edge.end), label, style))
-    return '\n'.join(lines + ['}'])
+def _edges(exported: Workspace) -> Iterator[Edge]:
+    index = exported.spec_index
+    for name, semantic in index.semantic_interfaces.items():
+        yield Edge(name, semantic.redefines, 'redefines', None)
+    for name, provider in index.providers.items():
+        yield Edge(name, provider.implements, 'implements', None)
+        for needed in provider.dependencies.values():
+            yield Edge(name, needed.capability_name, 'depends on', needed.preferred_provider)
+    for app in exported.apps():
+        parent = getattr(app, 'parent_name', None)
+        if parent is not None:
+            yield Edge(app_id(app), '#' + parent, 'inherits from', None)
+        for required in app.required_capabilities:
+            yield Edge(app_id(app), required.name, 'requires', None)
 
 
-def _escaped(name: str) -> str:
-    """A name as it stands between double quotes."""
-    return printable(name).replace('\\', '\\\\').replace('"', '\\"')
+def _reached(starts: Iterable[str], edges: Iterable[Edge]) -> Set[str]:
+    """What can be reached: from a capability its providers, from all else what it depends on."""
+    below: Dict[str, List[str]] = {}
+    for edge in edges:
+        start, end = edge.start, edge.end
+        if edge.kind == 'implements':
+            start, end = end, start
+        below.setdefault(start, []).append(end)
+    reached: Set[str] = set()
+    waiting = list(starts)
+    while waiting:
+        name = waiting.pop()
+        if name not in reached:
+            reached.add(name)
+            waiting += below.get(name, ())
+    return reached
+
+
+def _mark(nodes: Dict[str, Node], edges: Iterable[Edge], verdicts: Iterable[Verdict],
+          has_robot: bool) -> None:
+    """Set what the verdicts say of apps, and of the capabilities and providers that they need."""
+    used: Set[str] = set()
+    for verdict in verdicts:
+        app = verdict.app
+        used |= _used(verdict)
+        if not app.is_implementation:
+            continue
+        key = app_id(app)
+        own = next((reason for reason in verdict.reasons if reason.fault is None), None)
+        if own is not None:
+            nodes[key] = nodes[key]._replace(state=FAILS, fault=own.id, problem=str(own))
+        elif not verdict:
+            nodes[key] = nodes[key]._replace(state=FAILS)
+        elif has_robot:
+            for name in {key, *_used(verdict)} & nodes.keys():
+                nodes[name] = nodes[name]._replace(state=RUNS)
+        for reason in verdict.reasons:
+            if reason.fault is not None:
+                _mark_fault(nodes, reason.fault)
+    used.update(edge.end for edge in edges if edge.kind == 'redefines' and edge.start in used)
+    for key, node in nodes.items():
+        if used and key not in used and not node.state and not key.startswith('#'):
+            nodes[key] = node._replace(state=UNUSED)
+
+
+def _used(verdict: Verdict) -> Set[str]:
+    """The capabilities and providers that an app needs, those that it may need included."""
+    plan = verdict.plan
+    used = {*plan.providers, *plan.providers.values()}
+    for fault in plan.faults:
+        used.update((fault.capability, *fault.candidates))
+    return used
+
+
+def _provider_faults(exported: Workspace, defaults: Optional[Mapping[str, str]]
+                     ) -> Iterator[Fault]:
+    """What is wrong with providers, whether an app needs them or not."""
+    planner = Planner(exported.spec_index, defaults)
+    for name, provider in exported.spec_index.providers.items():
+        planner.add(provider.implements, name)
+    return (fault for fault in planner.plan(exported.launch_files.look_at).faults
+            if fault.kind not in _OF_SEVERAL)
+
+
+def _mark_fault(nodes: Dict[str, Node], fault: Fault) -> None:
+    """Set a fault where it is: at a provider whose launch file is at fault, or the capability."""
+    if fault.kind is FaultKind.CYCLE:
+        names = fault.cycle
+    elif fault.kind is FaultKind.LAUNCH_SHARED:
+        names = fault.sharers
+    else:
+        names = (str(fault.provider) if fault.launch is not None else fault.capability,)
+    for name in names:
+        if name in nodes and not nodes[name].fault:
+            nodes[name] = nodes[name]._replace(state=FAILS, fault=fault.kind.value,
+                                               problem=str(fault))

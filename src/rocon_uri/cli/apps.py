@@ -40,23 +40,18 @@ from __future__ import annotations
 import argparse
 
 from rocon_uri.cli.display import fields_as_json, painter, print_json
-from rocon_uri.cli.given import GivenURI
+from rocon_uri.cli.judged import add_defaults, named_apps, read_defaults, read_robot
 from rocon_uri.cli.packages import (
-    add_package_path, meant, mention_faults, printable, shortened, shown_path, workspace)
+    add_package_path, mention_faults, printable, shortened, shown_path, workspace)
 from rocon_uri.cli.running import add_running, what_runs
 from rocon_uri.compatibility import LEGEND
-from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
-from rocon_uri.platform import (
-    default_robot_name, default_robot_type, generate_platform_rocon_uri)
-from rocon_uri.uri import parse
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Dict, List, Optional, Sequence
     from rocon_uri.apps.runnable import App, Reason, Verdict
-    from rocon_uri.cli.packages import PackageReport
-    from rocon_uri.vocabulary import Vocabulary
+    from rocon_uri.cli.given import GivenURI
     from rocon_uri.workspace import Workspace
 
 __all__ = ['add_arguments', 'main']
@@ -75,8 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_package_path(parser)
     parser.add_argument('--all', action='store_true',
                         help='also the apps that it cannot run, and why')
-    parser.add_argument('--defaults', metavar='FILE',
-                        help='which provider to take where there are several')
+    add_defaults(parser)
     parser.add_argument('--ignore', metavar='ID', type=_reason_id, action='append', default=[],
                         help='leave reasons of this kind out, for example if apps are '
                              'installed elsewhere (may be repeated)')
@@ -96,10 +90,10 @@ def _reason_id(text: str) -> str:
 
 def main(args: argparse.Namespace) -> int:
     report, exported = workspace(args)
-    apps = _named(args.names, exported, report) if args.names else list(exported.apps())
+    apps = named_apps(args.names, exported, report) if args.names else list(exported.apps())
     mention_faults(args, report, exported, _asked_for(args.names, apps, exported))
-    robot = _read_robot(args.robot, exported.vocabulary, report)
-    defaults = _read_defaults(args.defaults, report)
+    robot = read_robot(args.robot, exported.vocabulary, report)
+    defaults = read_defaults(args.defaults, report)
     from rocon_uri.apps.rapps import runnable    # here, since it loads YAML
     running = what_runs(args, report)
     verdicts = [] if robot is None else [
@@ -123,17 +117,6 @@ def main(args: argparse.Namespace) -> int:
     return report.status or (0 if (all if args.names else any)(verdicts) else 1)
 
 
-def _named(names: Sequence[str], exported: Workspace, report: PackageReport) -> List[App]:
-    """The apps of these names, of which two may have one; a name that is not there is reported."""
-    apps = list(exported.apps())
-    for name in names:
-        if not any(app.name == name for app in apps):
-            suggestions = meant(name, {app.name: None for app in apps})
-            report.bad('no app has the name %s%s' % (quoted(name), did_you_mean(suggestions)),
-                       suggestions=suggestions)
-    return [app for name in dict.fromkeys(names) for app in apps if app.name == name]
-
-
 def _asked_for(names: Sequence[str], apps: Sequence[App], exported: Workspace) -> List[str]:
     """What may be faulty of that which was asked for: apps, and the capabilities that they need."""
     if not names:
@@ -142,39 +125,6 @@ def _asked_for(names: Sequence[str], apps: Sequence[App], exported: Workspace) -
     return [name for name in names if name not in found] + [
         needed.name for app in apps for needed in app.required_capabilities
         if needed.name not in exported.capabilities]
-
-
-def _read_robot(text: Optional[str], vocabulary: Vocabulary,
-                report: PackageReport) -> Optional[GivenURI]:
-    """The robot; one that is not registered is reported, and may run some apps nevertheless."""
-    if text is None:
-        text = generate_platform_rocon_uri(default_robot_type, default_robot_name())
-    try:
-        return GivenURI(parse(text, vocabulary), text)
-    except RoconURIValueError as error:
-        report.bad_uri(error)
-    try:
-        return GivenURI(parse(text, vocabulary.opened()), text)
-    except RoconURIValueError:
-        return None
-
-
-def _read_defaults(path: Optional[str], report: PackageReport) -> Dict[str, str]:
-    """The default providers by interface; none if the file is bad, which is reported."""
-    if path is None:
-        return {}
-    from rocon_uri.sources.checked import Reading   # these load YAML
-    from rocon_uri.sources.yaml_source import YamlError, read_file
-    try:
-        defaults = Reading(path, YamlError).load(
-            read_file(path), 'the file', 'a mapping from interfaces to providers')
-        if isinstance(defaults.get('defaults'), dict):
-            defaults = defaults.mapping('defaults')
-        return {defaults.key_text(key, 'the name of an interface'):
-                defaults.text_at(key, 'the default provider of %s') for key in defaults}
-    except (OSError, YamlError) as error:
-        report.bad_file(error)
-        return {}
 
 
 def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool,

@@ -1,0 +1,71 @@
+"""What verbs that judge apps are given: the robot, the default providers, and the names of apps."""
+from __future__ import annotations
+
+from rocon_uri.cli.given import GivenURI
+from rocon_uri.cli.packages import meant
+from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.platform import (
+    default_robot_name, default_robot_type, generate_platform_rocon_uri)
+from rocon_uri.sources.wording import did_you_mean, quoted
+from rocon_uri.uri import parse
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from typing import Dict, List, Optional, Sequence
+    from rocon_uri.apps.runnable import App
+    from rocon_uri.cli.packages import PackageReport
+    from rocon_uri.vocabulary import Vocabulary
+    from rocon_uri.workspace import Workspace
+
+__all__ = ['add_defaults', 'named_apps', 'read_defaults', 'read_robot']
+
+
+def add_defaults(parser: argparse.ArgumentParser) -> None:
+    """Let a verb take ``--defaults``."""
+    parser.add_argument('--defaults', metavar='FILE',
+                        help='which provider to take where there are several')
+
+
+def named_apps(names: Sequence[str], exported: Workspace, report: PackageReport) -> List[App]:
+    """The apps of these names, of which two may have one; a name that is not there is reported."""
+    apps = list(exported.apps())
+    for name in names:
+        if not any(app.name == name for app in apps):
+            suggestions = meant(name, {app.name: None for app in apps})
+            report.bad('no app has the name %s%s' % (quoted(name), did_you_mean(suggestions)),
+                       suggestions=suggestions)
+    return [app for name in dict.fromkeys(names) for app in apps if app.name == name]
+
+
+def read_robot(text: Optional[str], vocabulary: Vocabulary,
+               report: PackageReport) -> Optional[GivenURI]:
+    """The robot; one that is not registered is reported, and may run some apps nevertheless."""
+    if text is None:
+        text = generate_platform_rocon_uri(default_robot_type, default_robot_name())
+    try:
+        return GivenURI(parse(text, vocabulary), text)
+    except RoconURIValueError as error:
+        report.bad_uri(error)
+    try:
+        return GivenURI(parse(text, vocabulary.opened()), text)
+    except RoconURIValueError:
+        return None
+
+
+def read_defaults(path: Optional[str], report: PackageReport) -> Dict[str, str]:
+    """The default providers by interface; none if the file is bad, which is reported."""
+    if path is None:
+        return {}
+    from rocon_uri.sources.checked import Reading   # these load YAML
+    from rocon_uri.sources.yaml_source import YamlError, read_file
+    try:
+        defaults = Reading(path, YamlError).load(
+            read_file(path), 'the file', 'a mapping from interfaces to providers')
+        if isinstance(defaults.get('defaults'), dict):
+            defaults = defaults.mapping('defaults')
+        return {defaults.key_text(key, 'the name of an interface'):
+                defaults.text_at(key, 'the default provider of %s') for key in defaults}
+    except (OSError, YamlError) as error:
+        report.bad_file(error)
+        return {}
