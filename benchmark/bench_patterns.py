@@ -4,7 +4,7 @@ import tracemalloc
 
 from measure import once
 
-from rocon_uri import PatternTooComplex, RoconURIValueError
+from rocon_uri import PatternTooComplex, ResourceIndex, RoconURIValueError
 from rocon_uri.regular.inclusion import includes
 from rocon_uri.regular.intersection import common_name
 from rocon_uri.regular.language import Language
@@ -28,6 +28,7 @@ def figures():
         accepted.append(pattern)
     yield from matching(accepted)
     yield from comparing(accepted)
+    yield many()
 
 
 def matching(patterns):
@@ -59,10 +60,21 @@ def comparing(patterns):
            'details': pair}
 
 
-def decided(compare, *languages):
-    """Compare two languages, if that does not take too much work."""
+def many():
+    """One request against hundreds of resources with hard patterns."""
+    times = []
+    for pattern, request in (('(a|b)*b(a|b){%d}', '(a|b)*a(a|b){200}'), ('.*[ab].{%d}', '.*a.{40}'),
+                             ('(.{1,%d}a){16}', '((.*[a-z].?){64}){21}')):
+        index = ResourceIndex('rocon:/pr2/' + pattern % (number % 200 + 20) + '_%d' % number
+                              for number in range(400))
+        times.append((once(decided, index.count, 'rocon:/*/' + request)[0], request))
+    return in_milliseconds('count among 400 hard patterns', *max(times), 1500)
+
+
+def decided(ask, *args):
+    """Ask for what may take too much work."""
     try:
-        compare(*languages)
+        ask(*args)
     except PatternTooComplex:
         pass
 

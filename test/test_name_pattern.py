@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 
 from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
 from rocon_uri.name_pattern import ANY, Glob, Literal, RegularExpression, read
+from rocon_uri.regular.budget import WORK_LIMIT, Budget
 from rocon_uri.regular.inclusion import includes
 from rocon_uri.regular.intersection import common_name
 from rocon_uri.sources.ros_names import is_legal_base_name
@@ -210,6 +211,28 @@ def test_two_patterns_can_be_too_complex_to_compare():
         with pytest.raises(PatternTooComplex, match='are too complex to compare') as caught:
             question(other)
         assert caught.value.field == 'name'
+
+
+def test_a_budget_says_what_a_comparison_took():
+    budget = Budget()
+    assert read('.*a.{40}').intersects(read('.*b.{30}'), budget)
+    assert 8 * (42 + 32) < budget.spent < WORK_LIMIT // 5
+    making = Budget()       # automata, which takes most of the time here
+    assert not read('[xy]a(.{64}){60}').intersects(read('[xy]b.*'), making)
+    assert 8 * 3840 < making.spent < 10 * 3840
+    with pytest.raises(PatternTooComplex):
+        read('.*a.{40}').intersects(read('.*b.{30}'), Budget(budget.spent // 5))
+
+
+def test_nothing_left_of_a_budget_decides_what_needs_no_automata(monkeypatch):
+    nothing = Budget(0)
+    assert not read('a.*').intersects(read('b.*'), nothing)
+    assert read('a.*').intersects(read('*'), nothing)
+    assert read('a.*').intersects(read('abc'), nothing)
+    monkeypatch.setattr('rocon_uri.regular.language.language', None)    # which makes automata
+    with pytest.raises(PatternTooComplex, match="'a.*' and 'a.[+]' are too complex to compare"):
+        read('a.*').intersects(read('a.+'), nothing)
+    assert nothing.spent == 0
 
 
 # -- as values -----------------------------------------------------------------------------------

@@ -24,10 +24,10 @@ from regular_patterns import (
 
 from rocon_uri.regular import language as regular_language
 from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
+from rocon_uri.regular.budget import WORK_LIMIT
 from rocon_uri.regular.inclusion import Difference, includes
 from rocon_uri.regular.intersection import Intersection, common_name
 from rocon_uri.regular.language import Language, union
-from rocon_uri.regular.product import WORK_LIMIT
 from rocon_uri.regular.syntax import COUNT_LIMIT, DEPTH_LIMIT, SIZE_LIMIT, parse
 from rocon_uri.sources.ros_names import is_legal_base_name
 
@@ -60,6 +60,10 @@ def test_agrees_with_re_on_30000_pairs(text, seed):
     ('(bob|alice)_\\d{2}', ['bob_01', 'alice_99'], ['bob_1', 'carol_01', 'bob_001']),
     ('(bob|)x', ['bobx', 'x'], ['bob', '']),
     ('[0-9]?a', ['a'], ['0a']),
+    ('x(a?b?){2}', ['x', 'xa', 'xb', 'xba', 'xaba', 'xabab'], ['xbaba', 'xababa', 'xbbb', 'a']),
+    ('x(a?b?){2,3}y', ['xy', 'xby', 'xbbby'], ['xbbbby', 'x', 'y']),
+    ('x(a*|b){3}', ['x', 'xbbb', 'xaabaa'], ['xbbbb']),
+    ('a{0}b', ['b'], ['ab', 'a']), ('(ab?){0,1}c', ['c', 'ac', 'abc'], ['aac', 'bc']),
     ('.*', ['a', 'A_9', 'x' * 1000], ['', '9', '_a', 'a b', 'a\n', 'ä', 'a/b']),
 ])
 def test_matches_whole_legal_names_only(text, names, others):
@@ -93,6 +97,7 @@ def test_unions_are_those_of_the_sets_that_are_selected(size):
     ('((a?){3}){2,}', 'a*'), ('(a+)*', 'a*'), ('aa*', 'a+'), ('a*a', 'a+'), ('(bc|bc)', 'bc'),
     ('(a|)', 'a?'), ('(a*|)', 'a*'), ('a{1}', 'a'), ('a\\W?', 'a'), ('(a|b\\W)', 'a'),
     ('a(x{3}){0}', 'a'), ('(a{2}){3}', 'a{6}'), ('a(b(c|d))', 'ab[cd]'), ('[a-z]*' * 40, '[a-z]*'),
+    ('[a-a]', 'a'), ('[Z-Z0-0]', '[Z0]'), ('[a-b]', '[ab]'), ('[ab-b]', '[ab]'),
     ('(?:ab)', '(ab)'), ('^a$', 'a'), ('(a|(b|cc))', '([ab]|cc)'),
 ])
 def test_the_syntax_tree_is_normal(text, equal):
@@ -224,6 +229,8 @@ def test_refused_with_place_and_advice(text, span, problem, advice):
     ('(a{64}){64}', '(a{64}){64}a', 'more than 4096 atoms'),
     ('((ab?){32}){0,64}', '((ab?){32}){0,64}(a|)', 'more than 4096 atoms'),
     ('(a{128,}){32}', '(a{128,}){32}b?', 'more than 4096 atoms'),
+    ('(a{64}){64}b{0}', '(a{64}){64}b{0}c', 'more than 4096 atoms'),
+    ('(b{250}){0}(a{64}){64}(a{64}b){0}', '(b{250}){0}(a{64}){64}b{1}', 'more than 4096 atoms'),
     ('(a*){255}' * 16 + 'a{16}', '(a*){255}' * 16 + 'a{17}', 'more than 4096 atoms'),
 ])
 def test_limits_are_exact_and_named(at, over, problem):

@@ -1,5 +1,7 @@
 """Many names in order are matched as each of them is."""
+import gc
 import itertools
+import tracemalloc
 
 import pytest
 
@@ -36,3 +38,17 @@ def test_names_that_are_decided_are_not_read():
     matches = name_pattern.read('[bc].*').matches_in_order()
     decided = matches(names + unread[:1] + list(map(Unread, unread[1:-1])) + unread[-1:])
     assert list(decided) == [False] * 1000 + [True] * 1000
+
+
+def test_the_states_of_a_walk_are_bounded_without_the_garbage_collector():
+    matches = name_pattern.read('(a|b)*a(a|b){14}').matches_in_order()
+    names = sorted('a' + ''.join(rest) for rest in itertools.product('ab', repeat=14))
+    gc.disable()
+    tracemalloc.start()
+    try:
+        assert list(matches(names)) == [name[0] == 'a' for name in names]
+        kept, highest = tracemalloc.get_traced_memory()
+        assert highest < 2e6
+    finally:
+        tracemalloc.stop()
+        gc.enable()

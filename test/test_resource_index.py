@@ -1,7 +1,9 @@
 """An index of resources: a mapping in order, whose answers are those of a loop."""
 import copy
+import gc
 import pickle
 import random
+import weakref
 from collections.abc import MutableMapping
 
 import pytest
@@ -9,8 +11,11 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
-from rocon_uri import (PatternTooComplex, ResourceIndex, RoconURI, RoconURIValueError, Vocabulary,
-                       is_compatible, parse)
+from rocon_uri import (Field, PatternTooComplex, ResourceIndex, RoconURI, RoconURIValueError,
+                       Vocabulary, is_compatible, parse)
+from rocon_uri.name_pattern import NamePattern
+from rocon_uri.regular.budget import REQUEST_WORK_LIMIT, WORK_LIMIT
+from rocon_uri.regular.intersection import Intersection
 from rocon_uri.vocabulary import complete
 
 FLEET = ['rocon:/pr2/bob/noetic/focal', 'rocon:/kobuki/bob_1/noetic', 'rocon:/pr2/bob_2/indigo',
@@ -181,9 +186,150 @@ class TestUndecided:
         assert raised.value.undecided == [parse(self.HARD)]
         assert index.count('rocon:/pc') == 0
 
+    def test_the_undecided_are_in_order_of_insertion(self):
+        kinds = ['rocon:/%s/' % platform for platform in ('pr2', 'kobuki', 'pr2|kobuki')]
+        hard = [kinds[number % 3] + '(a|b)*b(a|b){%d}' % (120 + number % 5)
+                for number in (7, 3, 11, 2, 9, 6, 1, 4)]
+        index = ResourceIndex()
+        for place, uri in enumerate(hard):
+            index.add(uri, place)
+            index.add('rocon:/pr2/a_%d' % place)
+        with pytest.raises(PatternTooComplex, match='of 8 resources') as raised:
+            index.any(self.REQUEST)
+        assert raised.value.undecided == [parse(uri) for uri in hard]
+
     def test_what_no_field_lets_through_is_not_undecided(self):
         index = ResourceIndex([self.HARD])
         assert not index.any(self.REQUEST.replace('*', 'pc', 1))
+
+
+class TestBudget:
+    """The work that all comparisons of one request may take together."""
+
+    REQUEST = '.*a.{40}'
+
+    @pytest.fixture
+    def products(self, monkeypatch):
+        """The products of automata that are walked, each once for a little and once in full."""
+        made = []
+
+        def intersection(*args):
+            made.append(Intersection(*args))
+            return made[-1]
+        monkeypatch.setattr('rocon_uri.regular.intersection.Intersection', intersection)
+        return made
+
+    def test_hundreds_of_hard_patterns_take_no_more_than_ten(self, products):
+        hard = ['rocon:/pr2/.*[ab].{%d}c%d' % (20 + number % 100, number) for number in range(400)]
+        index = ResourceIndex(hard + ['rocon:/pr2/[x-z]+_?'])
+        found = index.find('rocon:/*/' + self.REQUEST)
+        taken = sum(product.work for product in products)
+        assert REQUEST_WORK_LIMIT - WORK_LIMIT < taken
+        assert taken + sum(8 * (product.one.tree.size + product.other.tree.size)
+                           for product in products) < REQUEST_WORK_LIMIT + WORK_LIMIT
+        matching = []
+        with pytest.raises(PatternTooComplex) as raised:
+            for uri in found:
+                matching.append(uri)
+        assert 200 < len(raised.value.undecided) < 400
+        assert sorted(map(str, matching + raised.value.undecided)) \
+            == sorted(str(parse(uri)) for uri in hard)
+
+    def test_easy_comparisons_come_first_wherever_they_were_added(self):
+        hard = ['rocon:/pr2/(a|b)*b(a|b){%d}' % (120 + number) for number in range(30)]
+        easy = ['rocon:/pr2/[w-z]_%d?' % number for number in range(10)]
+        request = 'rocon:/*/((a|b)*a(a|b){200}|x_)'
+        for texts in (hard + easy, easy + hard):
+            found = ResourceIndex(texts).find(request)
+            assert [next(found) for _ in easy] == list(map(parse, easy))
+            with pytest.raises(PatternTooComplex) as raised:
+                next(found)
+            assert raised.value.undecided == list(map(parse, hard))
+
+    def test_any_compares_no_hard_patterns_once_something_matches(self, products):
+        index = ResourceIndex(['rocon:/pr2/.*[ab].{40}c', 'rocon:/kobuki/[w-z]_'])
+        assert index.any('rocon:/*/(.*a.{40}|x_)')
+        assert sum(product.work for product in products) < WORK_LIMIT / 50
+
+    def test_a_pattern_of_several_kinds_is_compared_once(self, products):
+        index = ResourceIndex('rocon:/%s/.*[ab].{40}c%s' % (platform, app)
+                              for platform in ('pr2', 'kobuki', 'pc') for app in ('', '#a/b'))
+        assert index.count('rocon:/*/' + self.REQUEST) == 6
+        assert len(products) == 2
+
+    def test_each_request_has_a_budget_of_its_own(self):
+        index = ResourceIndex('rocon:/pr2/(a|b)*b(a|b){%d}' % (120 + number)
+                              for number in range(20))
+        index.add('rocon:/pr2/.*[ab].{40}c')
+        for _ in range(2):
+            with pytest.raises(PatternTooComplex):
+                index.count('rocon:/*/(a|b)*a(a|b){200}')
+            assert index.any('rocon:/*/' + self.REQUEST)
+
+
+class TestNothingIsKept:
+    """What was discarded can be freed."""
+
+    class Payload:
+        pass
+
+    @staticmethod
+    def held_by(index):
+        """What an index refers to, but not what resources and their fields refer to."""
+        found, waiting = {}, [vars(index)]
+        while waiting:
+            here = waiting.pop()
+            if id(here) not in found and not isinstance(here, type):
+                found[id(here)] = here
+                if not isinstance(here, (RoconURI, Field, Vocabulary)):
+                    waiting += gc.get_referents(here)
+        return found.values()
+
+    @pytest.mark.parametrize('kept', [[], ['rocon:/pr2/carol', 'rocon:/pc/carol/noetic']])
+    @pytest.mark.parametrize('size', [3, 300])
+    def test_of_resources_that_were_discarded(self, kept, size):
+        texts = [text % number for number in range(size) for text in (
+            'rocon:/pr2/bob_%d', 'rocon:/kobuki/bob_%d_*', 'rocon:/pc/[ab]+%d/noetic',
+            'rocon:/pc/al_%d/noetic')]
+        index = ResourceIndex({uri: self.Payload() for uri in texts + kept})
+        for request in ('rocon:/*/bob_1*', 'rocon:/*/*_1', 'rocon:/*/[a-c]o*.*'):
+            assert index.count(request) > 0
+        for uri in texts:
+            index.discard(uri)
+        held = list(self.held_by(index))
+        assert sum(isinstance(thing, self.Payload) for thing in held) == len(kept)
+        assert {thing.name_text for thing in held if isinstance(thing, RoconURI)} <= {'*', 'carol'}
+        assert not [thing for thing in held if isinstance(thing, NamePattern)]
+        assert {thing for thing in held if isinstance(thing, str)} - set(vars(index)) \
+            <= {'', 'carol', 'lorac'}
+
+    def test_of_the_payload_that_another_replaced(self, fleet):
+        payloads = [self.Payload() for _ in FLEET]
+        references = list(map(weakref.ref, payloads))
+        for uri, payload in zip(FLEET, payloads):
+            fleet[uri] = payload
+        del payloads, payload
+        for number, uri in enumerate(FLEET):
+            fleet[uri] = None if number % 2 else number
+        assert [reference() for reference in references] == [None] * len(FLEET)
+
+    def test_of_a_pattern_that_no_resource_has_any_more(self, monkeypatch):
+        compared = []
+        intersects = NamePattern.intersects
+
+        def counted(pattern, other, *budget):
+            compared.append(other.text)
+            return intersects(pattern, other, *budget)
+        index = ResourceIndex('rocon:/pr2/%s%s' % (name, app) for name in ('b*', '[ab]+')
+                              for app in ('', '#a/b', '#a/c'))
+        index.add('rocon:/pr2/alice')
+        monkeypatch.setattr(NamePattern, 'intersects', counted)
+        for app, expected in (('', 4), ('#a/b', 2), ('#a/c', 0)):
+            for name in ('b*', '[ab]+'):
+                index.discard('rocon:/pr2/' + name + app)
+            compared.clear()
+            assert index.count('rocon:/*/b.*') == expected
+            assert compared == ['b*', '[ab]+'] * (expected > 0)
 
 
 class TestVocabularies:

@@ -11,35 +11,57 @@ from bisect import bisect_left, bisect_right
 from itertools import compress
 
 from rocon_uri.exceptions import PatternTooComplex
+from rocon_uri.regular.budget import REQUEST_WORK_LIMIT, WORK_LIMIT, Budget
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Collection, Dict, List, Optional, Set, Tuple
     from rocon_uri.name_pattern import NamePattern
     from rocon_uri.uri import RoconURI
+    Undecided = List[Tuple[NamePattern, Set[int]]]
 
 __all__ = ['NameIndex', 'NameRequest']
 
 _AFTER_NAMES = '\x7f'       # greater than any character of a name
+_LITTLE_WORK = WORK_LIMIT // 200        # 0.3 ms: most comparisons take less
 _CHANGES_LIMIT = 100        # after more changes between two requests, sorting again is cheaper
 
 
 class NameRequest:
-    """The pattern that a request has in the name field, with the verdicts so far."""
+    """
+    The pattern that a request has in the name field, with the verdicts so far.
 
-    def __init__(self, pattern: NamePattern) -> None:
+    All comparisons of a request together may take `REQUEST_WORK_LIMIT`.
+
+    :param NamePattern pattern: any
+    :param verdicts: dict from patterns of resources to whether they overlap with it; it grows, and
+        requests with the same pattern may share it
+    """
+
+    def __init__(self, pattern: NamePattern,
+                 verdicts: Optional[Dict[NamePattern, bool]] = None) -> None:
         self.pattern = pattern
         self.matches_in_order = pattern.matches_in_order()
-        self._verdicts: Dict[NamePattern, Optional[bool]] = {}
+        self._verdicts: Dict[NamePattern, bool] = {} if verdicts is None else verdicts
+        self._work_left = REQUEST_WORK_LIMIT
+        self._tried: Dict[NamePattern, int] = {}    # with which limit, in vain
 
-    def intersects(self, pattern: NamePattern) -> Optional[bool]:
-        """Does the pattern of a resource overlap with it? None if deciding takes too much work."""
-        if pattern not in self._verdicts:
+    def intersects(self, pattern: NamePattern, limit: int = WORK_LIMIT) -> Optional[bool]:
+        """
+        Does the pattern of a resource overlap with that of the request?
+
+        :param NamePattern pattern: the pattern of the resource
+        :param int limit: the work that this comparison may take, in the units of `WORK_LIMIT`
+        :returns: bool, or None if deciding takes more work
+        """
+        if pattern not in self._verdicts and self._tried.get(pattern, 0) < limit:
+            budget = Budget(min(limit, self._work_left))
             try:
-                self._verdicts[pattern] = self.pattern.intersects(pattern)
+                self._verdicts[pattern] = self.pattern.intersects(pattern, budget)
             except PatternTooComplex:
-                self._verdicts[pattern] = None
-        return self._verdicts[pattern]
+                self._tried[pattern] = limit
+            self._work_left -= budget.spent
+        return self._verdicts.get(pattern)
 
 
 class NameIndex:
@@ -91,22 +113,23 @@ class NameIndex:
             self._orders.clear()
         return self._orders.values()
 
-    def numbers(self, request: NameRequest) -> Tuple[List[int], List[int]]:
+    def numbers(self, request: NameRequest) -> Tuple[List[int], Undecided]:
         """
         The resources whose name overlaps with that of a request.
 
         :param NameRequest request: of any pattern but ``*``
-        :returns: (list of int, list of int), the numbers of those that do and of the undecided
-            ones, in no particular order
+        :returns: (list of int, list of (NamePattern, set of int)), the numbers of those that do, in
+            no particular order, and the patterns that take more than a little work to compare
+            with the numbers of those that have them
         """
         found = self._literal(request)
-        undecided: List[int] = []
+        undecided: Undecided = []
         for pattern, numbers in self._patterned.items():
-            verdict = request.intersects(pattern)
+            verdict = request.intersects(pattern, _LITTLE_WORK)
             if verdict:
                 found += numbers
             elif verdict is None:
-                undecided += numbers
+                undecided.append((pattern, numbers))
         return found, undecided
 
     def _literal(self, request: NameRequest) -> List[int]:

@@ -30,6 +30,7 @@ from rocon_uri.sources.ros_names import is_legal_base_name
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Callable, Iterable, List, Optional, Tuple
+    from rocon_uri.regular.budget import Budget
     from rocon_uri.regular.language import Language
 
 __all__ = ['ANY', 'Glob', 'Literal', 'NamePattern', 'RegularExpression', 'read']
@@ -118,10 +119,11 @@ class NamePattern:
         """
         return partial(map, self.matches)
 
-    def intersects(self, other: NamePattern) -> bool:
+    def intersects(self, other: NamePattern, budget: Optional[Budget] = None) -> bool:
         """
         Do the two sets overlap?
 
+        :param Budget budget: the work that this may take; `WORK_LIMIT` where it is left out
         :returns: bool
         :raises PatternTooComplex: if deciding takes too much work
 
@@ -141,7 +143,7 @@ class NamePattern:
         # Between prefix and suffix a glob has a star, into which the rest of the other one fits.
         if isinstance(self, Glob) and isinstance(other, Glob) or self.is_any or other.is_any:
             return True
-        return self.example(other) is not None
+        return self._common_name(other, budget) is not None
 
     def includes(self, other: NamePattern) -> bool:
         """
@@ -175,8 +177,14 @@ class NamePattern:
             return self._language().example()
         if self.is_any or other.literal is not None:
             return other.example(self)
+        return self._common_name(other)
+
+    def _common_name(self, other: NamePattern, budget: Optional[Budget] = None) -> Optional[str]:
+        from rocon_uri.regular.budget import too_complex
         from rocon_uri.regular.intersection import common_name
-        return common_name(self._language(), other._language())
+        if budget is not None and budget.limit <= 0:        # before automata are made
+            raise too_complex(self.text, other.text)
+        return common_name(self._language(), other._language(), budget)
 
     def _language(self) -> Language:
         from rocon_uri.regular.language import language

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from typing import (Any, Collection, Dict, Iterable, Iterator, List, Optional, Tuple, Type,
                         Union)
     from rocon_uri.field import ValuesField
+    from rocon_uri.name_pattern import NamePattern
     from rocon_uri.vocabulary import Vocabulary
     Resource = Union[str, RoconURI]
     KindKey = Tuple[ValuesField, ValuesField, ValuesField, str, Vocabulary]
@@ -105,7 +106,8 @@ class ResourceIndex(Resources):
         :param request: RoconURI, or str that is parsed
         :returns: iterator of RoconURI
         :raises PatternTooComplex: by the iterator, after all that match, if there are resources
-            whose pattern takes too much work to compare: ``undecided``, a list of RoconURI
+            whose patterns take too much work to compare, one of them or all together:
+            ``undecided``, a list of RoconURI
 
         >>> list(ResourceIndex(['rocon:/pr2/bob', 'rocon:/pr2|pc/b*']).find('rocon:/pc'))
         [RoconURI('rocon:/pr2|pc/b*/*/*')]
@@ -147,10 +149,15 @@ class ResourceIndex(Resources):
         return any(self._matches(parse(request)))
 
     def _matches(self, request: RoconURI) -> Iterator[Collection[int]]:
-        """The numbers of those that match, kind by kind; then an error if some are undecided."""
+        """
+        The numbers of those that match, kind by kind; then an error if some are undecided.
+
+        Patterns that take more than a little work to compare come last, so that they are not
+        compared where `any` needs no more, and leave the budget of the request to all others.
+        """
         asked = with_any_name(request)
         name = NameRequest(request.name.pattern)
-        undecided: List[int] = []
+        hard: Dict[NamePattern, List[int]] = {}
         for kind, names in self._kinds.values():
             requested = asked
             if kind.vocabulary is not asked.vocabulary:
@@ -165,11 +172,19 @@ class ResourceIndex(Resources):
             if name.pattern.is_any:
                 yield names.resources
             else:
-                numbers, unknown = names.numbers(name)
-                undecided += unknown
+                numbers, undecided = names.numbers(name)
+                for pattern, patterned in undecided:
+                    hard.setdefault(pattern, []).extend(patterned)
                 yield numbers
-        if undecided:
-            raise too_complex(request, [self._resources[number] for number in sorted(undecided)])
+        left: List[int] = []
+        for pattern, numbers in hard.items():
+            verdict = name.intersects(pattern)
+            if verdict:
+                yield numbers
+            elif verdict is None:
+                left += numbers
+        if left:
+            raise too_complex(request, [self._resources[number] for number in sorted(left)])
 
     def __getitem__(self, uri: Resource) -> Any:
         return self._payloads.get(self._numbers[parse(uri)])
@@ -213,7 +228,7 @@ class ResourceIndex(Resources):
 
 def too_complex(request: RoconURI, undecided: List[RoconURI]) -> PatternTooComplex:
     """
-    The error for resources whose pattern takes too much work to compare.
+    The error for resources whose patterns take too much work to compare.
 
     :param RoconURI request: what they were compared with
     :param undecided: list of RoconURI, at least one

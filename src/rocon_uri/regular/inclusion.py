@@ -9,8 +9,9 @@ from functools import reduce
 from itertools import islice
 from operator import or_
 
+from rocon_uri.regular.budget import WORK_LIMIT
 from rocon_uri.regular.language import BEGIN, Language, Step, union
-from rocon_uri.regular.product import WORK_LIMIT, Product, numbers_in, union_work
+from rocon_uri.regular.product import Product, numbers_in, union_work
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

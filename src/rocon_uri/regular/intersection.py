@@ -1,6 +1,7 @@
 """Do two regular languages intersect, and in which shortest name?"""
 from __future__ import annotations
 
+from rocon_uri.regular.budget import Budget
 from rocon_uri.regular.language import BEGIN, Language, Step
 from rocon_uri.regular.product import Product, numbers_in
 
@@ -11,10 +12,11 @@ if TYPE_CHECKING:
 __all__ = ['Intersection', 'common_name']
 
 
-def common_name(one: Language, other: Language) -> Optional[str]:
+def common_name(one: Language, other: Language, budget: Optional[Budget] = None) -> Optional[str]:
     """
     A shortest name that two languages have in common.
 
+    :param Budget budget: the work that this may take; `WORK_LIMIT` where it is left out
     :returns: str, or ``None`` if there is none
     :raises PatternTooComplex: if deciding takes too much work
 
@@ -24,7 +26,13 @@ def common_name(one: Language, other: Language) -> Optional[str]:
     """
     if (one.tree.size, one.text) < (other.tree.size, other.text):
         one, other = other, one
-    found = Intersection(one, other).shortest()
+    budget = budget or Budget()
+    product = Intersection(one, other, budget.limit)
+    try:
+        found = product.shortest()
+    finally:
+        # to make the two languages takes about 8 units of time for each position
+        budget.spent += product.work + 8 * (one.tree.size + other.tree.size)
     return None if found is None else found.text()
 
 

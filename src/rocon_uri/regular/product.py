@@ -6,23 +6,15 @@ A product state is a pair of NFA state sets. The subclasses in `rocon_uri.regula
 """
 from __future__ import annotations
 
-from rocon_uri.exceptions import PatternTooComplex
+from rocon_uri.regular.budget import WORK_LIMIT, too_complex
 from rocon_uri.regular.language import Language, Step
 from rocon_uri.regular.tree import ALPHABET, BIT, LETTERS
-from rocon_uri.sources.wording import quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Dict, Iterator, Tuple
 
-__all__ = ['WORK_LIMIT', 'Product', 'numbers_in', 'union_work']
-
-#: The work that one comparison may take; more raises `PatternTooComplex`. The product of two short
-#: patterns can have more states than memory holds. Work is counted instead of states, since one
-#: state can hold thousands of positions. A unit takes 0.1 to 0.2 us and at most 20 bytes, so the
-#: limit is about 0.1 s and 12 MB.
-WORK_LIMIT = 600000
-
+__all__ = ['Product', 'numbers_in', 'union_work']
 
 class Product:
     """
@@ -32,9 +24,10 @@ class Product:
     one operation on a state set.
     """
 
-    def __init__(self, one: Language, other: Language) -> None:
+    def __init__(self, one: Language, other: Language, limit: int = WORK_LIMIT) -> None:
         self.one = one
         self.other = other
+        self.limit = limit
         self.work = 0
         classes: Dict[Tuple[str, str], Tuple[str, int, int]] = {}
         for char in ALPHABET:
@@ -63,14 +56,11 @@ class Product:
         Count work.
 
         :param int work: how much
-        :raises PatternTooComplex: if the total exceeds `WORK_LIMIT`
+        :raises PatternTooComplex: if the total exceeds the limit
         """
         self.work += work
-        if self.work > WORK_LIMIT:
-            raise PatternTooComplex(
-                'name patterns %s and %s are too complex to compare'
-                % (quoted(self.one.text), quoted(self.other.text)), field='name',
-                value=self.one.text, advice='use simpler ones, without large counts')
+        if self.work > self.limit:
+            raise too_complex(self.one.text, self.other.text)
 
 
 def union_work(positions: int) -> int:

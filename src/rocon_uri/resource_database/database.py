@@ -4,12 +4,13 @@ from __future__ import annotations
 import json
 from contextlib import contextmanager
 from functools import lru_cache
-from typing import TYPE_CHECKING, Iterator, List, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Dict, Iterator, List, Optional, Tuple, Union
 
 from sqlalchemy.pool import StaticPool
 
 from rocon_uri import name_pattern
 from rocon_uri.name_index import NameRequest
+from rocon_uri.name_pattern import NamePattern
 from rocon_uri.resource_database.engines import shown, transaction
 from rocon_uri.resource_database.functions import check_dialect
 from rocon_uri.resource_database.known import Known, read_resource, refreshed
@@ -250,10 +251,15 @@ class ResourceDatabase:
         return '<ResourceDatabase %s>' % shown(self._engine)
 
 
-@lru_cache(64)
 def _name_request(name: str) -> NameRequest:
-    """What a request says of the name, and what it came to with patterns that were met before."""
-    return NameRequest(name_pattern.read(name))
+    """What a request says of the name, with a budget of its own."""
+    return NameRequest(name_pattern.read(name), _verdicts(name))
+
+
+@lru_cache(64)
+def _verdicts(name: str) -> Dict[NamePattern, bool]:
+    """The verdicts of earlier requests with this name."""
+    return {}
 
 
 def _with_error_last(found: Iterator[RoconURI], request: RoconURI,
