@@ -184,6 +184,14 @@ def test_a_closed_stream_or_a_full_disk_is_no_traceback(line, status, err, unbuf
     assert len(done.stdout.splitlines()) <= 1
 
 
+@pytest.mark.parametrize('verb', ['specs check .', 'specs check %s' % ROOT])
+def test_a_working_directory_that_was_deleted_is_no_fault_of_writing(verb, tmp_path):
+    done = run_in_shell('mkdir %s && cd "$_" && rmdir "$PWD" && $ROCON_URI %s' % (
+        tmp_path / 'gone', verb))
+    assert (done.returncode, done.stdout) == (2, '')
+    assert done.stderr == 'rocon_uri: the working directory does not exist\n'
+
+
 def test_a_closed_stderr_is_not_replaced_by_stdout():
     assert run_in_shell('$ROCON_URI parse zork 2>&-').stdout == ''
 

@@ -70,10 +70,20 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     except OSError as error:    # a full disk, say
         import contextlib       # here, since nothing else needs it
         with contextlib.suppress(OSError):      # stderr may be on it, too
-            print('rocon_uri: cannot write: %s' % (error.strerror or error), file=sys.stderr)
+            print('rocon_uri: %s' % _failure(error), file=sys.stderr)
         _discard_output()
         return 2
     return status
+
+
+def _failure(error: OSError) -> str:
+    """What failed: an error of what is printed names no file, nor does that of os.getcwd()."""
+    if error.filename is not None:
+        from rocon_uri.sources.wording import quoted_path
+        return 'cannot read %s: %s' % (quoted_path(os.fsdecode(error.filename)), error.strerror)
+    if isinstance(error, FileNotFoundError):
+        return 'the working directory does not exist'
+    return 'cannot write: %s' % (error.strerror or error)
 
 
 def _prepare_streams() -> None:
