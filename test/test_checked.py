@@ -101,7 +101,7 @@ def test_plain_data_have_no_place():
     PackageError(problem='p', file_name='f', line=1, column=2),
     DuplicateNameException('p', 'f', 1, 2, 'a/B', 'a', 'interface'),
     InterfaceNameNotFoundException('p', 'f', 1, 2, 'a/B', 'a', 'provider', 'a/Lazer',
-                                   lambda: ['a/Laser', 'a/Camera']),
+                                   ['a/Laser', 'a/Camera']),
 ])
 def test_errors_can_be_pickled(error):
     again = pickle.loads(pickle.dumps(error))
@@ -115,7 +115,7 @@ def test_near_misses_are_only_looked_for_while_there_is_room_for_warnings():
         def has_room(self):
             return len(self.noted) < 2
 
-        def warn(self, problem, place):
+        def warn(self, problem, place, fault_id):
             self.noted.append(problem)
 
         def expectation(self, found, known):

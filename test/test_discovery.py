@@ -237,6 +237,62 @@ def test_a_read_that_fails_says_the_name_of_the_file(tmp_path: Path) -> None:
         for name in ('A.yaml', 'a.rapp')]
 
 
+def test_near_misses_of_many_specs_are_looked_for_as_long_as_it_does_not_take_long() -> None:
+    index = SpecIndex()
+    for number in range(600):
+        index.add_interface(CapabilityInterface('Camera%d' % number, 1), 'f', 'ours')
+        index.add_interface(CapabilityInterface('Base', 1), 'f', 'theirs_%d' % number)
+    suggestions = []
+    for number in range(50):
+        with pytest.raises(InterfaceNameNotFoundException) as caught:
+            index.add_provider(CapabilityProvider('a', 1, 'ours/Camra%d' % number), 'f', 'a')
+        suggestions.append(caught.value.suggestions)
+    assert [bool(names) for names in suggestions] == [True] * 33 + [False] * 17    # 20,000 names
+    assert 'ours/Camera32' in suggestions[32]
+
+
+def test_of_many_names_those_that_share_a_part_are_looked_at() -> None:
+    index = SpecIndex()
+    for number in range(300):
+        index.add_interface(CapabilityInterface('Base', 1), 'f', 'ours_%d' % number)
+        index.add_interface(CapabilityInterface('Laser', 1), 'f', 'ours_%d' % number)
+    index.add_semantic_interface(SemanticCapabilityInterface('Front', 'ours_7/Laser', 1), 'f', 'my')
+    assert sorted(index.names_like('ours_7/Lasr', 'interfaces')) == ['ours_7/Base', 'ours_7/Laser']
+    assert len(index.names_like('our_7/Laser', 'interfaces')) == 300
+    assert index.names_like('my/Fronnt', 'capabilities') == ['my/Front']
+    assert index.names_like('my/Fronnt', 'interfaces') == []
+    assert index.names_like('my/front', 'providers') == []
+    index.add_provider(CapabilityProvider('front', 1, 'my/Front'), 'f', 'my')
+    assert index.names_like('my/fronnt', 'providers') == ['my/front']
+    index.add_interface(CapabilityInterface('Laser', 1), 'f', 'my')
+    assert index.names_like('my/Lasr', 'interfaces') == ['my/Laser']
+    index.remove_interface('my/Laser')
+    index.remove_semantic_interface('my/Front')
+    index.remove_provider('my/front')
+    for kind in 'interfaces', 'capabilities', 'providers':
+        assert index.names_like('my/Front', kind) == []
+
+
+def test_one_spec_is_found_without_all_others() -> None:
+    index = SpecIndex()
+    interface = CapabilityInterface('Camera', 1)
+    front = SemanticCapabilityInterface('Front', 'ours/Camera', 1)
+    provider = CapabilityProvider('front', 1, 'ours/Front')
+    index.add_interface(interface, 'a.yaml', 'ours')
+    index.add_semantic_interface(front, 'b.yaml', 'ours')
+    index.add_provider(provider, 'c.yaml', 'ours')
+    assert index.capability('ours/Camera') is interface
+    assert index.capability('ours/Front') is front
+    assert index.capability('ours/front') is index.provider('ours/Front') is None
+    assert index.provider('ours/front') is provider
+    assert index.provider_path('ours/front') == 'c.yaml'
+    with pytest.raises(KeyError):
+        index.provider_path('ours/Front')
+    assert index.redefinitions_of('ours/Camera') == ['ours/Front']
+    index.remove_semantic_interface('ours/Front')
+    assert index.redefinitions_of('ours/Camera') == index.redefinitions_of('x/Y') == []
+
+
 class TestSpecFileIndex:
 
     def test_paths_by_package_and_export_in_order(self, tmp_path: Path) -> None:

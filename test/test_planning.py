@@ -425,6 +425,22 @@ def test_near_misses_are_looked_for_as_long_as_it_does_not_take_long() -> None:
     assert [bool(fault.suggestions) for fault in faults] == [True] * 3 + [False] * 2
 
 
+def test_a_plan_makes_no_dict_or_list_of_all_specs(monkeypatch: pytest.MonkeyPatch) -> None:
+    index = spec_index('Camera', 'Front>Camera', 'base Base Map', 'nav Nav Base Camera=front No',
+                       'front Front', 'map Map')
+
+    def fail(index: SpecIndex) -> None:
+        raise AssertionError('this grows with all that there is')
+
+    for name in ('names', 'specs', *(kind + view for kind in ('interface', 'semantic_interface',
+                                                              'provider')
+                                     for view in ('s', '_names', '_paths'))):
+        monkeypatch.setattr(SpecIndex, name, property(fail))
+    plan = plan_start(index, 'p/Nav')
+    assert [fault.kind for fault in plan.faults] == [FaultKind.NO_INTERFACE]
+    assert plan.order == ['p/map', 'p/base', 'p/front', 'p/nav']
+
+
 def test_kinds_are_ids_in_kebab_case() -> None:
     for kind in FaultKind:
         assert all(word.isalpha() and word.islower() for word in kind.value.split('-'))

@@ -10,80 +10,31 @@ It is usually made by `capabilities.discovery.spec_index_from_spec_file_index`.
 """
 from __future__ import annotations
 
+from capabilities.refused_specs import DuplicateNameException, InterfaceNameNotFoundException
 from capabilities.specs.common import InvalidSpec
-from rocon_uri.sources.located import LocatedError, with_id
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted, quoted_path
+from rocon_uri.sources.located import with_id
+from rocon_uri.sources.wording import NamesByPart, quoted, quoted_path
 from rocon_uri.sources.yaml_data import value_place
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Callable, Dict, Iterable, List, Optional, Tuple, TypeVar, Union
+    from typing import Callable, Dict, List, Optional, Tuple, TypeVar, Union
 
     from capabilities.specs.interface import CapabilityInterface
     from capabilities.specs.provider import CapabilityProvider
     from capabilities.specs.semantic_interface import SemanticCapabilityInterface
 
-    Spec = Union[CapabilityInterface, SemanticCapabilityInterface, CapabilityProvider]
+    Capability = Union[CapabilityInterface, SemanticCapabilityInterface]
+    Spec = Union[Capability, CapabilityProvider]
     S = TypeVar('S')
     T = TypeVar('T')
     Entries = Dict[str, Tuple[S, str]]      # what is there and its path, by name
 
 __all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'SpecIndex']
 
-
-class _RefusedSpec(LocatedError):
-    """A spec that cannot be indexed; the two exceptions below say why."""
-
-    def __init__(self, problem: str, file_name: str, line: Optional[int], column: Optional[int],
-                 spec_name: str, package: str, spec_type: str, *more: object) -> None:
-        super().__init__(problem, file_name, line, column, spec_name, package, spec_type, *more)
-        self.spec_name = spec_name
-        self.package = package
-        self.spec_type = spec_type
-
-
-class DuplicateNameException(_RefusedSpec):
-    """
-    A spec whose name is taken. Specs of different kinds cannot share a name either.
-
-    Attributes: those of `rocon_uri.sources.located.LocatedError`, and ``spec_name`` (str,
-    ``package/name``), ``package`` (str) and ``spec_type`` (str, ``'interface'``,
-    ``'semantic_interface'`` or ``'provider'``).
-    """
-
-    id = 'duplicate-name'
-
-
-class InterfaceNameNotFoundException(_RefusedSpec):
-    """
-    A semantic interface or provider of an interface that does not exist.
-
-    Attributes: those of `DuplicateNameException`, and ``interface`` (str), the name that it
-    redefines or implements.
-    """
-
-    id = 'no-interface'
-
-    def __init__(self, problem: str, file_name: str, line: Optional[int], column: Optional[int],
-                 spec_name: str, package: str, spec_type: str, interface: str,
-                 candidates: 'Iterable[str] | Callable[[], Iterable[str]]' = ()) -> None:
-        super().__init__(problem, file_name, line, column, spec_name, package, spec_type, interface)
-        self.interface = interface
-        self._candidates = candidates
-
-    @property
-    def suggestions(self) -> List[str]:
-        """The interfaces that were probably meant: a list of at most three str."""
-        candidates = self._candidates() if callable(self._candidates) else self._candidates
-        return near_misses(self.interface, candidates)
-
-    @property
-    def sentence(self) -> str:
-        """The problem, and what was probably meant."""
-        return self.problem + did_you_mean(self.suggestions)
-
-    def __reduce__(self) -> Tuple[object, ...]:
-        return type(self), (*self.args, self.suggestions)
+#: How many names the errors of one index are compared with to find near misses, at up to 60 us
+#: each. Errors after that have none.
+_MAX_COMPARED = 20000
 
 
 def _view(made_by: Callable[[SpecIndex], T], doc: str) -> T:
@@ -107,7 +58,11 @@ class SpecIndex:
         self._semantic_interfaces: Entries[SemanticCapabilityInterface] = {}
         self._providers: Entries[CapabilityProvider] = {}
         self._providers_of: Dict[str, Dict[str, None]] = {}    # sets that keep their order
-        self._implemented: Dict[str, str] = {}     # by provider, as it was when that was added
+        self._redefinitions_of: Dict[str, Dict[str, None]] = {}
+        # by provider and semantic interface, as it was when that was added
+        self._refers_to: Dict[str, str] = {}
+        self._names_like: Dict[str, NamesByPart] = {}      # by kind, as far as they were needed
+        self._compared = 0
 
     @property
     def names(self) -> List[str]:
@@ -158,6 +113,66 @@ class SpecIndex:
         """
         return list(self._providers_of.get(interface_name, ()))
 
+    def redefinitions_of(self, interface_name: str) -> List[str]:
+        """
+        The semantic interfaces that redefine an interface.
+
+        :param str interface_name: ``package/name``
+        :returns: list of str, their names; empty for an interface that does not exist
+
+        >>> SpecIndex().redefinitions_of('a_package/RGBCamera')
+        []
+        """
+        return list(self._redefinitions_of.get(interface_name, ()))
+
+    def capability(self, name: str) -> Optional[Capability]:
+        """
+        An interface or semantic interface. Unlike `interfaces` it makes no dict.
+
+        :param str name: ``package/name``
+        :returns: `CapabilityInterface` or `SemanticCapabilityInterface`; None if there is none
+
+        >>> SpecIndex().capability('a_package/RGBCamera')
+        """
+        entry = self._interfaces.get(name) or self._semantic_interfaces.get(name)
+        return None if entry is None else entry[0]
+
+    def provider(self, name: str) -> Optional[CapabilityProvider]:
+        """
+        A provider. Unlike `providers` it makes no dict.
+
+        :param str name: ``package/name``
+        :returns: `CapabilityProvider`; None if there is none
+
+        >>> SpecIndex().provider('a_package/rgb_camera')
+        """
+        return self._providers[name][0] if name in self._providers else None
+
+    def provider_path(self, name: str) -> str:
+        """
+        The file of a provider.
+
+        :param str name: ``package/name``
+        :returns: str
+        :raises KeyError: if no provider has this name
+        """
+        return self._providers[name][1]
+
+    def names_like(self, name: str, kind: str) -> List[str]:
+        """
+        The names of a kind among which one is looked for that was probably meant.
+
+        :param str name: ``package/name``
+        :param str kind: ``'interfaces'``, ``'capabilities'`` (both kinds of interfaces) or
+            ``'providers'``
+        :returns: list of str, which is not to be changed
+        """
+        if kind not in self._names_like:
+            names = self._providers if kind == 'providers' else self._interfaces
+            self._names_like[kind] = NamesByPart(
+                [*names, *(self._semantic_interfaces if kind == 'capabilities' else ())])
+        return self._names_like[kind].like(name)
+
     def add_interface(self, interface: CapabilityInterface, file_path: str,
                       package_name: str) -> None:
         """
@@ -172,6 +187,7 @@ class SpecIndex:
         name = self._free_name(interface, file_path, package_name)
         interface.name = name
         self._interfaces[name] = interface, str(file_path)
+        self._names_like.clear()
 
     def add_semantic_interface(self, semantic_interface: SemanticCapabilityInterface,
                                file_path: str, package_name: str) -> None:
@@ -183,10 +199,12 @@ class SpecIndex:
         """
         name = self._free_name(semantic_interface, file_path, package_name)
         if semantic_interface.redefines not in self._interfaces:
-            raise _missing(name, semantic_interface, 'redefines', file_path,
-                           lambda: self.interface_names)
+            raise self._missing(name, semantic_interface, 'redefines', file_path, 'interfaces')
         semantic_interface.name = name
         self._semantic_interfaces[name] = semantic_interface, str(file_path)
+        self._refers_to[name] = semantic_interface.redefines
+        self._redefinitions_of.setdefault(semantic_interface.redefines, {})[name] = None
+        self._names_like.pop('capabilities', None)
 
     def add_provider(self, provider: CapabilityProvider, file_path: str,
                      package_name: str) -> None:
@@ -199,12 +217,12 @@ class SpecIndex:
         name = self._free_name(provider, file_path, package_name)
         implemented = provider.implements
         if implemented not in self._interfaces and implemented not in self._semantic_interfaces:
-            raise _missing(name, provider, 'implements', file_path,
-                           lambda: self.interface_names + self.semantic_interface_names)
+            raise self._missing(name, provider, 'implements', file_path, 'capabilities')
         provider.name = name
         self._providers[name] = provider, str(file_path)
-        self._implemented[name] = implemented
+        self._refers_to[name] = implemented
         self._providers_of.setdefault(implemented, {})[name] = None
+        self._names_like.pop('providers', None)
 
     def remove_interface(self, name: str) -> None:
         """
@@ -214,15 +232,19 @@ class SpecIndex:
         :raises KeyError: if no interface has this name
         """
         del self._interfaces[name]
+        self._names_like.clear()
 
     def remove_semantic_interface(self, name: str) -> None:
         """Remove a semantic interface, as `remove_interface` does an interface."""
         del self._semantic_interfaces[name]
+        del self._redefinitions_of[self._refers_to.pop(name)][name]
+        self._names_like.pop('capabilities', None)
 
     def remove_provider(self, name: str) -> None:
         """Remove a provider, as `remove_interface` does an interface."""
         del self._providers[name]
-        del self._providers_of[self._implemented.pop(name)][name]
+        del self._providers_of[self._refers_to.pop(name)][name]
+        self._names_like.pop('providers', None)
 
     def _free_name(self, spec: Spec, file_path: str, package_name: str) -> str:
         """The name to add a spec by, which it may have already: ``package/name``."""
@@ -242,6 +264,18 @@ class SpecIndex:
                     str(file_path), *place, name, package_name, spec.spec_type)
         return name
 
+    def _missing(self, name: str, spec: Spec, key: str, file_path: str, kind: str
+                 ) -> InterfaceNameNotFoundException:
+        """The error of a spec that redefines or implements an interface that does not exist."""
+        interface = getattr(spec, key)
+        problem = '%s %s %s %s, which is not an interface that any package exports' % (
+            spec.spec_type.replace('_', ' '), quoted(name), key, quoted(interface))
+        candidates = self.names_like(interface, kind)
+        self._compared += len(candidates)
+        return InterfaceNameNotFoundException(
+            problem, str(file_path), *value_place(spec.source, key), name, name.partition('/')[0],
+            spec.spec_type, interface, candidates if self._compared <= _MAX_COMPARED else ())
+
 
 def _specs(entries: Entries[S]) -> Dict[str, S]:
     return {name: spec for name, (spec, _) in entries.items()}
@@ -251,12 +285,3 @@ def _paths(entries: Entries[S]) -> Dict[str, str]:
     return {name: path for name, (_, path) in entries.items()}
 
 
-def _missing(name: str, spec: Spec, key: str, file_path: str,
-             candidates: Callable[[], Iterable[str]]) -> InterfaceNameNotFoundException:
-    """The error of a spec that redefines or implements an interface that does not exist."""
-    interface = getattr(spec, key)
-    problem = '%s %s %s %s, which is not an interface that any package exports' % (
-        spec.spec_type.replace('_', ' '), quoted(name), key, quoted(interface))
-    return InterfaceNameNotFoundException(
-        problem, str(file_path), *value_place(spec.source, key), name, name.partition('/')[0],
-        spec.spec_type, interface, candidates)

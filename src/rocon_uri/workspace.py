@@ -83,9 +83,15 @@ class Workspace(NamedTuple):
         if not isinstance(capability, SemanticCapabilityInterface):
             return capability
         try:
-            return capability.resolve(self.spec_index.interfaces[capability.redefines])
+            return capability.resolve(self.redefined_by(capability))
         except InvalidSpec:
             return None
+
+    def redefined_by(self, semantic: SemanticCapabilityInterface) -> CapabilityInterface:
+        """The interface that a semantic interface of this workspace redefines."""
+        redefined = self.capabilities[semantic.redefines]
+        assert isinstance(redefined, CapabilityInterface)   # the index refuses another
+        return redefined
 
 
 def read_workspace(paths: Iterable[str]) -> Workspace:

@@ -44,7 +44,7 @@ class Launches:
     def __init__(self, spec_index: SpecIndex, running: Iterable[RunningProvider],
                  look_at: Optional[LookAt], nodelet_manager: bool) -> None:
         self.unread: List[str] = []
-        self._spec_paths = spec_index.provider_paths
+        self._spec_index = spec_index
         self._look_at = look_at
         self._nodelet_manager = nodelet_manager
         self._faults: List[Fault] = []
@@ -66,7 +66,7 @@ class Launches:
                                       provider=spec.name))
         if self._look_at is None or not spec.launch_file:
             return None
-        folder = os.path.dirname(self._spec_paths[spec.name])
+        folder = os.path.dirname(self._spec_index.provider_path(spec.name))
         file = self._look_at(spec.launch_file, folder)
         if file is None:
             self.unread.append(os.path.join(folder, spec.launch_file))

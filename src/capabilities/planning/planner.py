@@ -8,6 +8,7 @@ from capabilities.planning.launching import Launches, LookAt
 from capabilities.planning.plan import PlannedProvider, RunningProvider, StartPlan
 from capabilities.planning.start_order import components, cycle_in
 from capabilities.spec_index import SpecIndex
+from capabilities.specs.provider import CapabilityProvider
 
 __all__ = ['Planner']
 
@@ -51,11 +52,7 @@ class Planner:
 
     def __init__(self, spec_index: SpecIndex, defaults: Optional[Mapping[str, str]],
                  running: Iterable[RunningProvider] = ()) -> None:
-        self.specs = spec_index.providers
         self._spec_index = spec_index
-        self._redefined = {name: spec.redefines
-                           for name, spec in spec_index.semantic_interfaces.items()}
-        self._capabilities = {*spec_index.interface_names, *self._redefined}
         self._defaults = defaults or {}
         self._running = list(running)
         self._instances = {one.capability: _Instance(one.capability, one.provider, True)
@@ -83,7 +80,7 @@ class Planner:
                 self._dependencies[instance] = []
                 self._first_need[instance] = need
                 if not instance.running:    # what a running one depends on is not checked
-                    needed = self.specs[instance.provider].dependencies.values()
+                    needed = self._provider(instance.provider).dependencies.values()
                     waiting += [(_Need(one.capability_name, one.preferred_provider, asked_for,
                                        instance.provider), instance)
                                 for one in reversed(list(needed))]
@@ -99,16 +96,18 @@ class Planner:
                          provider is not None and not preferred, implements, candidates,
                          semantic_candidates, known=known)
 
-        if capability not in self._capabilities:
-            return fault(FaultKind.NO_INTERFACE, known=self._alike(self._capabilities))
+        if self._spec_index.capability(capability) is None:
+            return fault(FaultKind.NO_INTERFACE, known=self._alike(capability, 'capabilities'))
         candidates = self._candidates_for(capability)
         named = preferred or self._defaults.get(capability)
         if named:
-            if named not in self.specs:
+            provider = self._spec_index.provider(named)
+            if provider is None:
                 return fault(FaultKind.UNKNOWN_PROVIDER, named, None, candidates,
-                             known=self._alike(self.specs))
-            implements = self.specs[named].implements
-            if capability not in (implements, self._redefined.get(implements)):
+                             known=self._alike(named, 'providers'))
+            implements = provider.implements
+            implemented = self._spec_index.capability(implements)
+            if capability not in (implements, getattr(implemented, 'redefines', None)):
                 return fault(FaultKind.WRONG_PROVIDER, named, implements, candidates)
             return str(named)
         if not candidates:
@@ -154,7 +153,7 @@ class Planner:
         if isinstance(chosen, Fault):
             # A request for a bad provider is refused. A dependency is met: it is running.
             return chosen if running is None or need.required_by is None else running
-        implements = str(self.specs[chosen].implements)
+        implements = str(self._provider(chosen).implements)
         shared = self._instances.get(implements, running)
         if shared is not None:
             return shared
@@ -162,8 +161,16 @@ class Planner:
             self._preferences.setdefault(need.capability, {})[chosen] = None
         return _Instance(implements, chosen, False)
 
-    def _alike(self, names: Collection[str]) -> Collection[str]:
+    def _provider(self, name: str) -> CapabilityProvider:
+        """The provider of a name that there is."""
+        provider = self._spec_index.provider(name)
+        if provider is None:
+            raise KeyError(name)
+        return provider
+
+    def _alike(self, name: str, kind: str) -> Collection[str]:
         """The names among which a near miss is looked for: none after too many comparisons."""
+        names = self._spec_index.names_like(name, kind)
         self._compared += len(names)
         return names if self._compared <= _MAX_COMPARED else ()
 
@@ -173,8 +180,8 @@ class Planner:
         return self._candidates[capability]
 
     def _semantic_candidates(self, capability: str) -> Tuple[str, ...]:
-        return tuple(provider for name, redefined in self._redefined.items()
-                     if redefined == capability for provider in self._candidates_for(name))
+        return tuple(provider for name in self._spec_index.redefinitions_of(capability)
+                     for provider in self._candidates_for(name))
 
     def _conflicts(self) -> List[Fault]:
         """The capabilities for which several providers would have to run, or are preferred."""
@@ -188,7 +195,8 @@ class Planner:
             preferred = self._preferences.get(capability, {})
             if len(implementing) > 1 or len(preferred) > 1:
                 candidates = tuple({**implementing, **preferred})
-                last = _Instance(str(self.specs[candidates[-1]].implements), candidates[-1], False)
+                last = _Instance(str(self._provider(candidates[-1]).implements), candidates[-1],
+                                 False)
                 faults.append(Fault(FaultKind.CONFLICT, capability,
                                     self._first_need[last].asked_for, candidates=candidates))
         return faults
@@ -198,7 +206,7 @@ class Planner:
         need = self._first_need[instance]
         launch_file = None
         if not running:
-            launch_file = launches.add(capability, self.specs[provider], need.asked_for)
+            launch_file = launches.add(capability, self._provider(provider), need.asked_for)
         depends_on = dict.fromkeys(below.capability for below in self._dependencies[instance])
         return PlannedProvider(capability, provider, running, launch_file, tuple(depends_on),
                                need.required_by)

@@ -120,7 +120,10 @@ def plan_for_provider(spec_index: SpecIndex, provider_name: str,
     KeyError: 'navigation/navigation_nav_stack'
     """
     planner = Planner(spec_index, defaults)
-    planner.add(planner.specs[provider_name].implements, provider_name)
+    provider = spec_index.provider(provider_name)
+    if provider is None:
+        raise KeyError(provider_name)
+    planner.add(provider.implements, provider_name)
     return planner.plan()
 
 
@@ -137,6 +140,6 @@ def find_cycles(spec_index: SpecIndex, defaults: Defaults = None) -> List[Fault]
     []
     """
     planner = Planner(spec_index, defaults)
-    for name, provider in planner.specs.items():
+    for name, provider in spec_index.providers.items():
         planner.add(provider.implements, name)
     return [fault for fault in planner.plan().faults if fault.kind is FaultKind.CYCLE]

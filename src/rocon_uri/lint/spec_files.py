@@ -70,7 +70,7 @@ def _check_semantic_interface(spec: SemanticCapabilityInterface, source: Checked
         for name in new_names:
             file.check_ros_name(new_names.get(name), 'new name', new_names.value_place(name))
     try:
-        spec.resolve(workspace.spec_index.interfaces[spec.redefines])
+        spec.resolve(workspace.redefined_by(spec))
     except InvalidSpec as error:
         file.refuse(error)
 

@@ -3,11 +3,13 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Iterable, List
+    from typing import Dict, Iterable, List
 
-__all__ = ['did_you_mean', 'near_misses', 'near_names', 'printable', 'quoted', 'quoted_path']
+__all__ = ['NamesByPart', 'did_you_mean', 'near_misses', 'near_names', 'printable', 'quoted',
+           'quoted_path']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
+_FEW_NAMES = 500        # of which each is compared, at about 20 us
 _NEAR_LENGTH = 64       # characters: a longer text is not a typing error, and would take long
 
 
@@ -65,6 +67,37 @@ def near_names(name: str, names: Iterable[str]) -> List[str]:
     package, _, own_name = name.partition('/')
     return near_misses(name, (other for other in names if other.startswith(package + '/')
                               or other.endswith('/' + own_name)))
+
+
+class NamesByPart:
+    """
+    Names, ``package/name``, to look for the near misses of many names in.
+
+    Where there are many, a name is compared only with those that share a part with it.
+
+    >>> names = NamesByPart(['ours/Camera', 'theirs/Base'])
+    >>> near_misses('ours/Camra', names.like('ours/Camra'))
+    ['ours/Camera']
+    """
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self._names = list(names)
+        self._by_part: Dict[str, List[str]] = {}
+        if len(self._names) > _FEW_NAMES:
+            for name in self._names:
+                for part in _parts(name):
+                    self._by_part.setdefault(part, []).append(name)
+
+    def like(self, name: str) -> List[str]:
+        """The names to compare one with; the list is not to be changed."""
+        if len(self._names) <= _FEW_NAMES:
+            return self._names
+        return [other for part in _parts(name) for other in self._by_part.get(part, ())]
+
+
+def _parts(name: str) -> List[str]:
+    package, _, own_name = name.partition('/')
+    return [package + '/', '/' + own_name]
 
 
 def did_you_mean(suggestions: Iterable[str]) -> str:
