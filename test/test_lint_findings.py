@@ -132,3 +132,108 @@ def test_a_package_says_what_is_ignored_in_its_files(tmp_path, monkeypatch, conf
 def test_a_faulty_configuration_is_a_finding(tmp_path, monkeypatch, configuration, finding):
     (make_package(tmp_path, 'ours') / '.rocon_uri.yaml').write_text(configuration)
     assert ids(tmp_path, monkeypatch) == [('ours/.rocon_uri.yaml', finding)]
+
+
+# Each kind of finding, where it occurs
+
+CAMERA = '''\
+name: Camera
+spec_version: 1
+spec_type: interface
+interface: {topics: {provides: {image: {type: %s}}}}
+'''
+FRONT = 'name: Front\nspec_version: 1\nspec_type: semantic_interface\nredefines: ours/Camera\n'
+USB = 'name: usb\nspec_version: 1\nspec_type: provider\nimplements: ours/Camera\n'
+LAUNCH = {'a_launch': '<launch/>'}
+
+
+def rapp(text='', launch='a.launch', **files):
+    """The files of a package with a rapp."""
+    return {'a_rapp': 'display: A\ndescription: B\ncompatibility: rocon:/pr2\nlaunch: %s\n%s' % (
+        launch, text), **(files or LAUNCH)}
+
+
+def specs(camera='sensor_msgs/Image', front='', usb=''):
+    """The files of a package with specs."""
+    return {'Camera_yaml': CAMERA % camera, 'Front_yaml': FRONT + front, 'usb_yaml': USB + usb}
+
+
+OCCURRENCES = {
+    'cannot-read': {'x_interactions': None},
+    'not-yaml': rapp('['),
+    'wrong-value': rapp('icon: 7'),
+    'missing-key': {'Camera_yaml': 'spec_version: 1\nspec_type: interface\n'},
+    'unknown-key': rapp('colour: red'),
+    'duplicate-key': rapp('display: B'),
+    'illegal-name': specs(front='global_namespace: a-b'),
+    'illegal-type': specs('Image'),
+    'file-missing': rapp('icon: a.png'),
+    'file-outside': rapp('icon: ../../a.png'),
+    'duplicate-name': {**rapp(), 'b__a_rapp': 'display: A\ndescription: B\n'},
+    'no-interface': specs(usb='depends_on: ours/Light'),
+    'unknown-provider': specs(usb='depends_on: {ours/Front: {provider: ours/other}}'),
+    'wrong-provider': specs(usb='depends_on: {ours/Front: {provider: ours/usb}}'),
+    'cycle': specs(usb='depends_on: ours/Camera'),
+    'unknown-name': specs(usb='remappings: {topics: {iamge: a}}'),
+    'remapping-collision': {**specs(front='remappings: {topics: {image: a, depth: a}}'),
+                            'Camera_yaml': CAMERA % 'a/B}, depth: {type: a/B'},
+    'unknown-app': rapp('parent_name: other'),
+    'ancestor-cycle': rapp('parent_name: a'),
+    'launch-missing': rapp(launch='b.launch'),
+    'launch-outside': rapp(launch='../../b.launch'),
+    'launch-unreadable': rapp(launch='.'),
+    'launch-not-xml': rapp(a_launch='<launch>'),
+    'launch-no-launch': rapp(a_launch='<robot/>'),
+    'invalid-uri': {'x_interactions': '[{name: A, compatibility: "rocon:/pr3"}]'},
+    'one-slash': {'x_interactions': '[{name: A, compatibility: "rocon://pc"}]'},
+    'invalid-manifest': {'email="somebody@example.org"': ''},
+    'duplicate-package': {'copy__package_xml': '<package><name>ours</name></package>',
+                          'package_xml': None},
+    'duplicate-export': {'</export>': 2 * '<rocon_uri rules="a.yaml"/>' + '</export>',
+                         'a_yaml': 'hardware_platform: {robot: [ours]}'},
+    'unknown-export': {'</export>': '<rocon_apps>a.rapp</rocon_apps></export>'},
+    'export-attribute': {'</export>': '<rocon_uri rule="a"/></export>'},
+    'no-app-manager-dependency': {'</export>': '<app_manager app_dir="."/></export>'},
+    'not-exported': {'b__c_rapp': 'display: A\ndescription: B\n'},
+    'not-listed': {'a_app': '{}'},
+    'outside-app-dir': {'a_installed': 'apps: []'},
+    'never-runs': {'a_rapp': 'compatibility: rocon:/'},
+    'no-interactions': {'x_interactions': ''},
+    'duplicate-interaction': {'x_interactions': '[%s, %s]' % (
+        2 * ('{name: A, command: a, compatibility: "rocon:/"}',))},
+    'unknown-pairing': {'x_interactions': '[{name: A, command: a, compatibility: "rocon:/", '
+                                          'required_pairings: [B]}]'},
+    'unknown-interaction': {**rapp(), 'x_interactions': 'pairings: [{name: A, rapp: ours/a, '
+                                                        'requires_interaction: B}]'},
+    'invalid-rules': {'</export>': '<rocon_uri rules="rules.yaml"/></export>',
+                      'rules_yaml': 'robot: [ours]'},
+    'no-package': None,         # of single files: test_cli_check.py
+}
+EXPORTED = {'Camera_yaml': 'capability_interface', 'Front_yaml': 'semantic_capability_interface',
+            'usb_yaml': 'capability_provider', 'a_rapp': 'rocon_app', 'b__a_rapp': 'rocon_app'}
+
+
+def test_each_id_has_an_occurrence():
+    assert set(OCCURRENCES) == set(EXPLANATIONS)
+
+
+@pytest.mark.parametrize('fault_id', [fault_id for fault_id, files in OCCURRENCES.items() if files])
+def test_each_id_occurs_where_it_should_and_alone(tmp_path, monkeypatch, fault_id):
+    files = OCCURRENCES[fault_id]
+    edits = {old: new for old, new in files.items() if not re.fullmatch(r'\w+', old)}
+    names = {key: text for key, text in files.items() if key not in edits}
+    exports = [(tag, '.'.join(key.replace('__', '/').rsplit('_', 1)))
+               for key, tag in EXPORTED.items() if key in names]
+    folder = make_package(tmp_path, 'ours', exports,
+                          **{key: text for key, text in names.items() if text is not None})
+    manifest = folder / 'package.xml'
+    for old, new in edits.items():
+        manifest.write_text(manifest.read_text().replace(old, new))
+    if fault_id == 'cannot-read':
+        (folder / 'x.interactions').symlink_to('nowhere')
+    if fault_id == 'duplicate-package':
+        manifest.rename(folder / 'ours.xml')
+        for name in 'copy', 'other':
+            (folder / name).mkdir(exist_ok=True)
+            (folder / name / 'package.xml').write_text((folder / 'ours.xml').read_text())
+    assert {found for _, found in ids(tmp_path, monkeypatch)} == {fault_id}

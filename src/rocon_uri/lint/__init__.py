@@ -79,9 +79,10 @@ def check_package_index(checked: Mapping[str, Package], others: Mapping[str, Pac
     []
     """
     workspace = load_workspace({**others, **checked})
+    # A missing file is a fault of the file that names it.
     folders = {package.folder for package in checked.values()}
     found = [_finding(fault) for fault in workspace.faults
-             if _is_in_one_of(_path(fault), folders)]
+             if os.path.isfile(_path(fault)) and _is_in_one_of(_path(fault), folders)]
     ignored: List[Ignored] = []
     seconds: Dict[str, float] = {}
     for path, check in _checks(checked, workspace, ignored):
@@ -89,8 +90,9 @@ def check_package_index(checked: Mapping[str, Package], others: Mapping[str, Pac
         found += check()
         seconds[path] = seconds.get(path, 0) + perf_counter() - begin
     if only is not None:
-        found = [finding for finding in found if _is_below_one_of(finding.file_name, only)]
-        seconds = {path: time for path, time in seconds.items() if _is_below_one_of(path, only)}
+        wanted = frozenset(only)
+        found = [finding for finding in found if _is_in_one_of(finding.file_name, wanted)]
+        seconds = {path: time for path, time in seconds.items() if _is_in_one_of(path, wanted)}
     found += [*map(_finding, faults), *findings]
     return _shown(without_ignored(found, ignore, ignored), seconds)
 
@@ -126,14 +128,10 @@ def _folder(name: str, checked: Mapping[str, Package]) -> str:
     return package.folder if package else ''
 
 
-def _is_in_one_of(path: str, folders: AbstractSet[str]) -> bool:
-    """Is this a file in one of the folders? A missing file is a fault of the file that names it."""
-    return os.path.isfile(path) and not folders.isdisjoint(
-        map(str, PurePath(os.path.normpath(path)).parents))
-
-
-def _is_below_one_of(path: str, others: Iterable[str]) -> bool:
-    return any(is_inside(path, other) for other in others)
+def _is_in_one_of(path: str, paths: AbstractSet[str]) -> bool:
+    """Is this one of the files, or in one of the folders?"""
+    path = os.path.normpath(path)
+    return path in paths or not paths.isdisjoint(map(str, PurePath(path).parents))
 
 
 def _path(fault: Fault) -> str:

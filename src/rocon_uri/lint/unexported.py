@@ -21,6 +21,7 @@ from rocon_uri.sources.yaml_source import load, read_file
 
 __all__ = ['check_unexported']
 
+_SUFFIXES = ('.app', '.installed', '.rapp', '.yaml', '.yml')
 _TAGS = {'interface': 'capability_interface', 'provider': 'capability_provider',
          'semantic_interface': 'semantic_capability_interface'}
 
@@ -40,7 +41,7 @@ def check_unexported(package: Package, paths: Iterable[str]) -> List[Finding]:
     listed = _listed_apps(package)
     findings: List[Finding] = []
     for path in paths:
-        if _is_test(path, package):
+        if not path.endswith(_SUFFIXES) or _is_test(path, package):
             continue
         file = CheckedFile(path, package.folder)
         name, suffix = os.path.splitext(os.path.basename(path))
@@ -83,8 +84,6 @@ def _tag_of(path: str) -> str:
     """The tag of the export that a file should have; '' if it should have none."""
     if path.endswith('.rapp'):
         return 'rocon_app'
-    if not path.endswith(('.yaml', '.yml')):
-        return ''
     try:
         content = read_file(path)
         if b'spec_type' not in content or b'spec_version' not in content:
