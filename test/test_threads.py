@@ -14,8 +14,7 @@ faulthandler.dump_traceback_later(100, exit=True)       # where it stands still,
 from concurrent.futures import ThreadPoolExecutor
 opened = []
 sys.addaudithook(lambda event, arguments: opened.append(arguments[0])
-                 if event == 'open' and arguments[1] and 'robots.json' in str(arguments[0])
-                 else None)
+                 if event == 'open' and 'robots.json' in str(arguments[0]) else None)
 import rocon_uri
 from rocon_uri import RoconURIValueError, Vocabulary, is_compatible, parse, relation
 sys.setswitchinterval(1e-5)     # with less, a busy machine may do nothing but switch
