@@ -40,7 +40,8 @@ def specs(capsys):
 
 
 def bad_package(workspace, warning_only=False):
-    text = 'colour: red\n' + ('' if warning_only else 'icon: ../../x.png\n')
+    text = 'colour: red\n%sdisplay: A\ndescription: B\n' % (
+        '' if warning_only else 'icon: ../../x.png\n')
     return make_package(workspace, 'bad', [('rocon_app', 'dance.rapp')], dance_rapp=text)
 
 

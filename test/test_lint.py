@@ -39,6 +39,13 @@ launch: dance.launch
 '''
 
 
+def described(text):
+    """A rapp with what people see of it, at its end."""
+    if text.startswith('{'):
+        return text[:-1] + ', ' * (text != '{}') + 'display: A, description: B}'
+    return text.rstrip('\n') + '\ndisplay: A\ndescription: B\n'
+
+
 def findings_in(workspace, monkeypatch, *package_path):
     """What is found in a workspace, as lines with paths relative to it and without the ids."""
     monkeypatch.chdir(workspace)
@@ -54,7 +61,8 @@ def found(tmp_path, monkeypatch, exports=(), **files):
                for key in files]
     exports = [(tag, path) for tag, path in folders
                if tag and path.endswith(('.yaml', '.rapp'))] + list(exports)
-    make_package(tmp_path, 'ours', exports, **files)
+    make_package(tmp_path, 'ours', exports, **{
+        key: described(text) if key.endswith('_rapp') else text for key, text in files.items()})
     prefix = 'ours' + os.sep
     return [line[len(prefix):].partition('; to register it')[0]
             for line in findings_in(tmp_path, monkeypatch)]
@@ -101,7 +109,8 @@ def test_what_a_package_refers_to_may_be_elsewhere_on_the_package_path(tmp_path,
 
 def test_a_package_that_is_checked_stands_for_another_of_its_name(tmp_path, monkeypatch):
     make_package(tmp_path / 'old', 'ours', [('rocon_app', 'dance.rapp')], dance_rapp='[')
-    make_package(tmp_path / 'new', 'ours', [('rocon_app', 'dance.rapp')], dance_rapp='colour: red')
+    make_package(tmp_path / 'new', 'ours', [('rocon_app', 'dance.rapp')],
+                 dance_rapp=described('colour: red'))
     (line,) = findings_in(tmp_path / 'new', monkeypatch, str(tmp_path / 'old'))
     assert "unknown key 'colour'" in line
 
@@ -185,7 +194,8 @@ def test_an_invalid_manifest_is_found_and_hides_no_other(tmp_path, monkeypatch):
 def test_rules_that_are_exported_are_read(tmp_path, monkeypatch):
     folder = make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp')],
                           dance_launch='<launch/>',
-                          dance_rapp='{compatibility: "rocon:/our_robot", launch: dance.launch}',
+                          dance_rapp=described('{compatibility: "rocon:/our_robot", '
+                                               'launch: dance.launch}'),
                           rules_yaml='hardware_platform: {robot: [our_robot]}')
     lines = findings_in(tmp_path, monkeypatch)
     assert len(lines) == 1 and "'our_robot' is not registered" in lines[0]
@@ -369,7 +379,7 @@ def test_a_provider_of_nothing_and_two_specs_of_one_name_are_errors(tmp_path, mo
      ['1:16: warning: the rapp has compatibility but no launch, so it never runs']),
     ('launch: 7', ['1:9: error: launch is 7, expected text']),
     (DANCE + 'public_interface: x.interface',
-     ["3:19: error: public_interface 'x.interface' does not exist"]),
+     ["3:19: warning: public_interface 'x.interface' does not exist"]),
     (DANCE + 'required_capabilities: [{name: ours/Camrea}]',
      ["3:32: error: capability 'ours/Camrea' does not exist (did you mean 'ours/Camera'?)"]),
     (DANCE + 'required_capabilities: [{name: ours/Camera, interfcae: {}}]',
@@ -395,9 +405,52 @@ def test_rapps(tmp_path, monkeypatch, text, findings):
         'rapps/dance.rapp:' + finding for finding in findings]
 
 
+@pytest.mark.parametrize('text, findings', [
+    (DANCE,
+     ['1:1: warning: the rapp has no display and no description, and no parent that has it']),
+    (DANCE + 'display: Dance',
+     ['1:1: warning: the rapp has no description, and no parent that has it']),
+    (DANCE + 'display: Dance\ndescription: It dances', []),
+    (DANCE + 'parent_name: motion', []),
+    ('parent_name: motion\ndisplay: Dance',
+     ['1:14: warning: the rapp has a parent but no launch and no compatibility, so it never runs']),
+    ('parent_name: motion\nlaunch: dance.launch',
+     ['1:14: warning: the rapp has a parent but no compatibility, so it never runs']),
+    (DANCE + 'parent_name: motion\npublic_interface: dance.interface',
+     ['4:19: warning: the rapp has a public_interface, which a rapp takes from its parent']),
+    ('display: A\ndescription: B\nrequired_capabilities: [{name: ours/Camera}]',
+     ['3:1: warning: the rapp is virtual and requires capabilities, which no other rapp inherits']),
+    (DANCE + 'parent_name: motion\nrequired_capabilities: [{name: ours/Camera}]', []),
+])
+def test_the_form_of_rapps(tmp_path, monkeypatch, text, findings):
+    make_package(tmp_path, 'ours', [
+        ('capability_interface', 'Camera.yaml'), ('rocon_app', 'dance.rapp'),
+        ('rocon_app', 'motion.rapp')], Camera_yaml=CAMERA, dance_rapp=text,
+        motion_rapp=described('{}'), dance_launch='<launch/>', dance_interface='')
+    assert findings_in(tmp_path, monkeypatch) == ['ours/dance.rapp:' + line for line in findings]
+
+
+@pytest.mark.parametrize('key', ['icon', 'public_interface', 'public_parameters', 'launch'])
+@pytest.mark.parametrize('name, what, meant', [
+    ('ours/dance.x', 'is a resource name', '../media/dance.x'),
+    ('$(find ours)/media/dance.x', 'is written with $(find)', '../media/dance.x'),
+    ('package://ours/media/dance.x', 'is a package:// URL', '../media/dance.x'),
+    ('ours/gone.x', 'is a resource name', None)])
+def test_a_file_that_is_not_named_by_its_path(tmp_path, monkeypatch, key, name, what, meant):
+    text = 'compatibility: rocon:/\nlaunch: dance.launch\n%s: %s\n' % (key, name)
+    place, begin = '3:%d' % (len(key) + 3), 'warning: ' + key
+    if key == 'launch':
+        text, place, begin = text.replace('launch: dance.launch\n', ''), '2:9', 'error: launch file'
+    assert found(tmp_path, monkeypatch, media__dance_x='<launch/>', rapps__dance_launch='<launch/>',
+                 rapps__dance_rapp=text) == [
+        'rapps/dance.rapp:%s: %s %s %s, expected a path relative to the file that names it%s' % (
+            place, begin, quoted_path(name), what,
+            ' (did you mean %s?)' % quoted_path(meant) if meant else '')]
+
+
 def test_a_rapp_that_no_uri_can_name_is_a_warning(tmp_path, monkeypatch):
     folder = make_package(tmp_path, 'ours', [('rocon_app', 'tango-nuevo.rapp')])
-    (folder / 'tango-nuevo.rapp').write_text('{}')
+    (folder / 'tango-nuevo.rapp').write_text(described('{}'))
     (line,) = findings_in(tmp_path, monkeypatch)
     assert line.startswith('ours/tango-nuevo.rapp: warning: no rocon URI can name rapp')
 
@@ -514,7 +567,7 @@ def test_what_no_file_should_hold_is_one_finding_for_each(tmp_path, monkeypatch,
 def test_files_that_cannot_be_read_are_findings(tmp_path, monkeypatch):
     folder = make_package(tmp_path, 'ours', [
         ('rocon_app', 'loop.rapp'), ('rocon_app', 'fifo.rapp'), ('rocon_app', 'good.rapp')],
-        good_rapp='icon: i.png')
+        good_rapp=described('icon: i.png'))
     (folder / 'loop.rapp').symlink_to('loop.rapp')
     os.mkfifo(str(folder / 'fifo.rapp'))
     (folder / 'x.interactions').symlink_to('gone')

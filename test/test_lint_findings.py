@@ -35,8 +35,10 @@ def ids_in_source():
             elif isinstance(node, ast.Assign) and getattr(node.targets[0], 'id', '') == 'id' and (
                     isinstance(node.value, ast.Constant)):
                 found.add(node.value.value)
+    from rocon_uri.apps.runnable import REASON_IDS
     from rocon_uri.sources import launch_file
-    return found | {launch_file.MISSING, launch_file.NOT_XML, launch_file.NO_LAUNCH,
+    of_resources = {name for name in REASON_IDS if name.endswith(('-missing', '-ambiguous'))}
+    return found | of_resources | {launch_file.MISSING, launch_file.NOT_XML, launch_file.NO_LAUNCH,
                     launch_file.OUTSIDE, launch_file.UNREADABLE}
 
 

@@ -18,6 +18,8 @@ from typing import (
     AbstractSet, Callable, Collection, Dict, Iterable, Iterator, List, Mapping, NamedTuple,
     Optional, Sequence, Tuple)
 
+from rocon_uri.apps.installed import installed_files
+from rocon_uri.lint.app_files import check_app_file
 from rocon_uri.lint.checked_file import is_inside
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.lint.ignoring import Ignored, read_configuration, without_ignored
@@ -120,6 +122,13 @@ def _checks(checked: Mapping[str, Package], workspace: Workspace, ignored: List[
         folder = _folder(rapp.name, checked)
         if folder and is_inside(rapp.path, folder):
             yield rapp.path, partial(check_rapp, rapp, folder, workspace)
+    for package in checked.values():
+        for path in installed_files(package):
+            yield path, list    # what is wrong with it was found when it was read
+    for app in workspace.app_files.values():
+        folder = _folder(app.name, checked)
+        if folder:
+            yield app.path, partial(check_app_file, app, folder, workspace)
 
 
 def _folder(name: str, checked: Mapping[str, Package]) -> str:

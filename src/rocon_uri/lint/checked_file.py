@@ -10,6 +10,7 @@ from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.sources.checked import CheckedMapping, Reading
 from rocon_uri.sources.launch_file import MISSING, LaunchFiles
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
+from rocon_uri.sources.resources import not_a_path
 from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name
 from rocon_uri.sources.wording import did_you_mean, near_misses, near_names, quoted
 from rocon_uri.sources.yaml_data import split_lines
@@ -116,9 +117,11 @@ class CheckedFile(Reading):
                 return path
         if inside:
             is_there = any(map(os.path.exists, inside))
-            self.add(if_missing, '%s %s %s' % (
-                what, quoted(name), 'is not a file' if is_there else 'does not exist'), place,
-                'file-missing')
+            other = None if is_there else not_a_path(name, folders[0], self.package_folder)
+            problem = 'is not a file' if is_there else 'does not exist'
+            if other is not None:
+                problem = other.problem + did_you_mean(other.paths)
+            self.add(if_missing, '%s %s %s' % (what, quoted(name), problem), place, 'file-missing')
         else:
             self.error('%s %s is outside the package' % (what, quoted(name)), place,
                        'file-outside')

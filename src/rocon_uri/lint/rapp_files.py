@@ -7,7 +7,7 @@ from typing import List
 from rocon_uri.apps.rapp import GROUPS_OF_REMAPPINGS, KEYS, TYPES_OF_REMAPPINGS, Rapp
 from rocon_uri.grammar import is_rocon_app
 from rocon_uri.lint.checked_file import CheckedFile
-from rocon_uri.lint.finding import ERROR, WARNING, Finding
+from rocon_uri.lint.finding import WARNING, Finding
 from rocon_uri.sources.checked import CheckedMapping
 from rocon_uri.sources.located import NOWHERE
 from rocon_uri.sources.wording import quoted
@@ -38,20 +38,13 @@ def check_rapp(rapp: Rapp, package_folder: str, workspace: Workspace) -> List[Fi
     if rapp.compatibility is not None:
         file.check_compatibility(rapp.compatibility, workspace.vocabulary,
                                  rapp.position('compatibility'))
-    if not rapp.is_implementation:
-        for key, lacking in (('launch', 'compatibility'), ('compatibility', 'launch')):
-            if getattr(rapp, key) is not None:
-                file.warn('the rapp has %s but no %s, so it never runs' % (key, lacking),
-                          rapp.position(key), 'never-runs')
+    _check_form(rapp, source, file)
     folder = os.path.dirname(file.path)
     findings: List[Finding] = []
-    for key, what, if_missing in (
-            ('icon', 'icon', WARNING),
-            ('public_interface', 'public_interface', ERROR),
-            ('public_parameters', 'public_parameters', ERROR)):
+    for key in 'icon', 'public_interface', 'public_parameters':
         name = source.text(key)
-        if name is not None:
-            path = file.check_file(name, what, rapp.position(key), folder, if_missing=if_missing)
+        if name is not None:    # without it, the app still runs
+            path = file.check_file(name, key, rapp.position(key), folder, if_missing=WARNING)
             if path is not None and key.startswith('public_'):
                 findings += _check_public_file(key, path, package_folder)
     if rapp.launch is not None:
@@ -59,6 +52,30 @@ def check_rapp(rapp: Rapp, package_folder: str, workspace: Workspace) -> List[Fi
     for item in file.mappings(source.sequence('required_capabilities'), 'a required capability'):
         _check_required_capability(item, file, workspace)
     return findings + file.findings
+
+
+def _check_form(rapp: Rapp, source: CheckedMapping, file: CheckedFile) -> None:
+    """Check what the published form requires of an ancestor, a child and a virtual rapp."""
+    lacking = [key for key in ('launch', 'compatibility') if getattr(rapp, key) is None]
+    if rapp.is_ancestor:
+        unsaid = [key for key in ('display', 'description') if getattr(rapp, key) is None]
+        if unsaid:
+            file.warn('the rapp has no %s, and no parent that has it' % ' and no '.join(unsaid),
+                      source.place, 'missing-key')
+        if len(lacking) == 1:
+            key = 'compatibility' if lacking == ['launch'] else 'launch'
+            file.warn('the rapp has %s but no %s, so it never runs' % (key, lacking[0]),
+                      rapp.position(key), 'never-runs')
+    else:
+        if lacking:
+            file.warn('the rapp has a parent but no %s, so it never runs' % ' and no '.join(
+                lacking), rapp.position('parent_name'), 'never-runs')
+        if rapp.public_interface is not None:
+            file.warn('the rapp has a public_interface, which a rapp takes from its parent',
+                      rapp.position('public_interface'), 'own-interface')
+    if lacking and rapp.required_capabilities:
+        file.warn('the rapp is virtual and requires capabilities, which no other rapp inherits',
+                  source.key_place('required_capabilities'), 'virtual-capabilities')
 
 
 def _check_required_capability(capability: CheckedMapping, file: CheckedFile,
