@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name, is_legal_resource_name
+from rocon_uri.sources.ros_names import (
+    is_legal_base_name, is_legal_name, is_legal_resource_name, legalised)
 
 NAMES = [
     # name              base   resource  graph
@@ -61,3 +62,10 @@ def test_beyond_ascii_they_only_refuse_more(name):
                          (is_legal_base_name, graph.is_legal_base_name),
                          (is_legal_resource_name, resource.is_legal_resource_name)):
         assert ours(name) == (theirs(name) and name.isascii())
+
+
+@given(st.text())
+def test_any_text_becomes_a_base_name_and_a_base_name_in_lower_case_stays(text):
+    name = legalised(text)
+    assert is_legal_base_name(name)
+    assert legalised(name) == name

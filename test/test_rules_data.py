@@ -53,7 +53,7 @@ def test_a_name_occurs_once_in_a_field_and_is_a_base_name_in_lower_case(field):
     ('application_framework', (), 'ros ros2 opros application_framework_other'),
     ('application_framework', ('ros',),
      'boxturtle cturtle diamondback electric fuerte groovy hydro indigo jade kinetic lunar '
-     'melodic noetic ros_other'),
+     'melodic noetic one ros_other'),
     ('application_framework', ('ros2',),
      'ardent bouncy crystal dashing eloquent foxy galactic humble iron jazzy kilted rolling'),
     ('operating_system', (), 'windows linux osx macos freebsd android web'),

@@ -2,8 +2,10 @@
 from __future__ import annotations
 
 import copy
+import gc
 import itertools
 import pickle
+import weakref
 
 import pytest
 
@@ -422,3 +424,40 @@ def test_a_field_is_any_if_its_text_is_a_star():
 def test_what_rfc_3986_does_not_allow_is_escaped(text, escaped):
     assert parse(text).to_rfc3986() == escaped
     assert parse(escaped) == parse(text)
+
+
+# What consumers of the old package do
+
+def test_the_arguments_have_the_names_that_the_old_package_gave_them():
+    bob = parse(rocon_uri_string='rocon:/pr2/bob')
+    assert RoconURI(rocon_uri_string='rocon:/pr2/bob') == bob
+    assert rocon_uri.is_compatible(rocon_uri_a='rocon:/pr2', rocon_uri_b=bob)
+
+
+def test_a_uri_can_be_referred_to_weakly():
+    uri = parse('rocon:/pr2/someone_else', Vocabulary({'hardware_platform': ['pr2']}))
+    users = weakref.WeakKeyDictionary({uri: 'one'})
+    assert users[uri] == 'one'
+    reference = weakref.ref(uri)
+    uri.vocabulary.uris_read.clear()
+    del uri
+    gc.collect()
+    assert reference() is None and not users
+
+
+@pytest.mark.parametrize('app', ['ours/3dview', 'apps/2dlaser', 'ours/3', 'teleop'])
+def test_the_name_of_an_app_may_start_with_a_digit_after_a_slash(app):
+    uri = parse('rocon:/turtlebot#' + app)
+    assert uri.rocon_app == app
+    assert parse(str(uri)) == uri
+    assert parse('rocon://north/turtlebot#' + app).rocon_app == app
+
+
+@pytest.mark.parametrize('app', ['3dview', '3d/view', 'ours/_view', 'ours/', '/view', 'ours/3d/v'])
+def test_the_name_of_an_app_starts_with_a_letter_elsewhere(app):
+    with pytest.raises(RoconURIValueError, match='package/name'):
+        parse('rocon:/turtlebot#' + app)
+
+
+def test_ros_one_is_a_release_of_ros():
+    assert rocon_uri.relation('rocon:/*/*/one', 'rocon:/*/*/ros').value == 'subset'

@@ -164,7 +164,8 @@ class FieldVocabulary:
             known = parents.setdefault(name, parent)
             if parent is not None and known != parent:
                 raise RulesError("%s '%s' cannot be in '%s', since it is already %s" % (
-                    self.name, name, parent, "in '%s'" % known if known else 'at the top'), place)
+                    self.name, name, parent,
+                    "in '%s'" % known if known else 'at the top, in no group'), place)
             waiting += [(name, entry) for entry in members(below, place)][::-1]
         return FieldVocabulary(self.name, parents)
 

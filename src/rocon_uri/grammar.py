@@ -31,7 +31,7 @@ application_framework = [ framework , { "|" , framework } ] ;
 operating_system      = [ system , { "|" , system } ] ;
 name                  = [ "*" | base_name | glob | regex ] ;
 concert_name          = base_name ;
-rocon_app             = [ base_name , "/" ] , base_name ;
+rocon_app             = base_name , [ "/" , ( letter | digit ) , { letter | digit | "_" } ] ;
 
 base_name   = letter , { letter | digit | "_" } ;
 glob        = { letter | digit | "_" | "*" } ;              (* at least one "*" *)
@@ -72,7 +72,7 @@ _escape = re.compile(r'%([0-9A-Fa-f]{2})?')
 is_literal = re.compile(r'[A-Za-z]\w{0,254}', re.ASCII).fullmatch
 
 #: A match if the text is the name of an app, ``package/name`` or ``name``, else None.
-is_rocon_app = re.compile(r'(?:[A-Za-z]\w{0,254}/)?[A-Za-z]\w{0,254}', re.ASCII).fullmatch
+is_rocon_app = re.compile(r'[A-Za-z]\w{0,254}(?:/[A-Za-z0-9]\w{0,254})?', re.ASCII).fullmatch
 
 
 def decoded(raw: str) -> str:

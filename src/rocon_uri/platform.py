@@ -7,11 +7,11 @@ the name; the application framework and the operating system are found out here.
 from __future__ import annotations
 
 import os
-import re
 
 from rocon_uri.exceptions import RoconURIValueError
-from rocon_uri.sources.wording import quoted
 from rocon_uri.grammar import NAME_LIMIT
+from rocon_uri.sources.ros_names import legalised
+from rocon_uri.sources.wording import quoted
 from rocon_uri.vocabulary import complete, current
 
 TYPE_CHECKING = False
@@ -62,12 +62,10 @@ def default_robot_name() -> str:
 
 
 def _legal_name(text: str, field: str) -> str:
-    """The text as a ROS base name: lower case, with ``_`` for every character not allowed."""
     if not text:
         raise RoconURIValueError('%s %s is empty, expected at least one character'
                                  % (field, quoted(text)), field=field)
-    name = re.sub('[^a-z0-9_]', '_', text.lower())
-    return (name if name[0].isalpha() else 'r' + name)[:NAME_LIMIT]
+    return legalised(text)[:NAME_LIMIT]
 
 
 def _application_framework() -> str:

@@ -38,7 +38,8 @@ class Reading:
         'rocon_app': 'The app that runs there, a str; empty for none.',
         'vocabulary': 'The `Vocabulary` that the URI was read with.',
         'read_with_one_slash':
-            'Was ``//`` read as ``/``, since a registered platform follows it?'}
+            'Was ``//`` read as ``/``, since a registered platform follows it?',
+        '__weakref__': 'What refers to the URI weakly.'}
 
     concert_name: str
     hardware_platform: ValuesField
@@ -172,14 +173,11 @@ def _read_concert_name(text: str) -> str:
 def _read_rocon_app(text: str) -> str:
     if not text or grammar.is_rocon_app(text):
         return text
-    names = text.split('/', 1)
-    if not all(map(is_legal_base_name, names)):
-        raise RoconURIValueError(
-            'rocon_app %s is not of the form package/name or name, each a ROS base name'
-            % quoted(text), text, 'rocon_app', text)
-    for name in names:
+    for name in text.split('/'):
         _check_length('rocon_app', name)
-    return text
+    raise RoconURIValueError(
+        'rocon_app %s is not of the form package/name or name, each a ROS base name; what follows '
+        'a slash may start with a digit' % quoted(text), text, 'rocon_app', text)
 
 
 def _check_length(field: str, text: str) -> None:

@@ -43,9 +43,9 @@ class RoconURI(Reading):
 
     __slots__ = ()
 
-    def __new__(cls, text: Resource = 'rocon:/',
+    def __new__(cls, rocon_uri_string: Resource = 'rocon:/',
                 vocabulary: Optional[Vocabulary] = None, strict: bool = False) -> 'RoconURI':
-        return parse(text, vocabulary, strict)
+        return parse(rocon_uri_string, vocabulary, strict)
 
     @classmethod
     def from_fields(cls, concert_name: str = '', hardware_platform: FieldText = '*',
@@ -204,12 +204,13 @@ class RoconURI(Reading):
         raise AttributeError('a rocon URI cannot be changed')
 
 
-def parse(text: Resource = 'rocon:/', vocabulary: Optional[Vocabulary] = None,
+def parse(rocon_uri_string: Resource = 'rocon:/', vocabulary: Optional[Vocabulary] = None,
           strict: bool = False) -> RoconURI:
     """
     Read a rocon URI; specification, sections "Definition" and "Special Operations".
 
-    :param text: str; a RoconURI is returned as it is, or read again with the given vocabulary
+    :param rocon_uri_string: str; a RoconURI is returned as it is, or read again with the given
+        vocabulary
     :param vocabulary: `Vocabulary` to read with. Where it is left out, that is the bundled one
         and, after the first value that it does not have, also what the packages on this machine
         and ROCON_URI_RULES add.
@@ -222,7 +223,7 @@ def parse(text: Resource = 'rocon:/', vocabulary: Optional[Vocabulary] = None,
     >>> parse('rocon:/pr2/bob').hardware_platform.string
     'pr2'
     """
-    known = current() if vocabulary is None else vocabulary
+    text, known = rocon_uri_string, current() if vocabulary is None else vocabulary
     if not isinstance(text, str):
         if not isinstance(text, RoconURI):
             raise TypeError('a rocon URI is a str, not %s' % type(text).__name__)
@@ -242,14 +243,14 @@ def parse(text: Resource = 'rocon:/', vocabulary: Optional[Vocabulary] = None,
     return uri
 
 
-def is_compatible(a: Resource, b: Resource) -> bool:
+def is_compatible(rocon_uri_a: Resource, rocon_uri_b: Resource) -> bool:
     """
     Do two URIs match a common resource; can this app run on this robot?
 
     Where the four fields of one are all ``*``, the other may have values that are not registered.
 
-    :param a: RoconURI, or str that is parsed
-    :param b: RoconURI, or str that is parsed
+    :param rocon_uri_a: RoconURI, or str that is parsed
+    :param rocon_uri_b: RoconURI, or str that is parsed
     :returns: bool; the same for (b, a)
     :raises RoconURIValueError: for a text that is not legal
     :raises PatternTooComplex: if the two names take too much work to decide
@@ -257,6 +258,7 @@ def is_compatible(a: Resource, b: Resource) -> bool:
     >>> is_compatible('rocon:/kobuki|turtlebot2', 'rocon:/kobuki/bob/noetic/bookworm')
     True
     """
+    a, b = rocon_uri_a, rocon_uri_b
     if type(a) is not RoconURI or type(b) is not RoconURI or a.vocabulary is not b.vocabulary:
         a, b = comparable(a, b)
     if not (a.hardware_platform.mask & b.hardware_platform.mask

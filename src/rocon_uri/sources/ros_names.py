@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-__all__ = ['is_legal_base_name', 'is_legal_name', 'is_legal_resource_name']
+__all__ = ['is_legal_base_name', 'is_legal_name', 'is_legal_resource_name', 'legalised']
 
 _base_name = re.compile(r'[A-Za-z]\w*', re.ASCII).fullmatch
 _resource_name = re.compile(r'[A-Za-z][\w/]*', re.ASCII).fullmatch
@@ -57,3 +57,19 @@ def is_legal_name(name: str | None) -> bool:
     if not name:
         return name == ''
     return _graph_name(name) is not None and '//' not in name
+
+
+def legalised(name: str) -> str:
+    """
+    A base name made of any text: in lower case, with ``_`` for every character that is not allowed.
+
+    An ``r`` is put before a text that is empty or starts with a digit or ``_``.
+
+    :param str name: any
+    :returns: str
+
+    >>> legalised('R2-D2'), legalised('3po'), legalised('bob')
+    ('r2_d2', 'r3po', 'bob')
+    """
+    legal = re.sub('[^a-z0-9_]', '_', name.lower())
+    return legal if is_legal_base_name(legal) else 'r' + legal
