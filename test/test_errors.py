@@ -229,3 +229,49 @@ def test_the_classes_of_errors():
 def test_an_error_has_no_other_behind_it():
     assert error_of('rocon:/pr2/b%2Fb').__suppress_context__
     assert error_of('rocon:/turtelbot2').__suppress_context__
+
+
+# Advice
+
+@pytest.mark.parametrize('text, value, says', [
+    ('rocon:/*/*/*/ubuntu*', 'ubuntu*', "only the name can be a pattern, but the group 'ubuntu' "
+     'covers its members'),
+    ('rocon:/turtle.*', 'turtle.*', 'only the name can be a pattern'),
+    ('rocon:/(pr2|fetch)', '(pr2', "alternatives need no parentheses: 'pr2|fetch'"),
+    ('rocon:/pr2,kobuki', 'pr2,kobuki', "alternatives have a | between them: 'pr2|kobuki'"),
+    ('rocon:/pr2;kobuki', 'pr2;kobuki', "alternatives have a | between them: 'pr2|kobuki'"),
+    ('rocon:/pr2,(kobuki|fetch)', 'pr2,(kobuki', 'alternatives have a | between them'),
+    ('rocon:/*/*/*/20.04', '20.04', 'a release has the name that is registered for it'),
+    ('rocon:/*/*/*/ubuntu20.04', 'ubuntu20.04', 'a release has the name that is registered'),
+    ('rocon:/turtlebot-2', 'turtlebot-2', 'a value is a letter, then letters, digits and _'),
+    ('rocon:/' + 'b' * 256, 'b' * 256, 'at most 255 characters'),
+])
+def test_what_could_never_be_registered_is_not_told_to_be(text, value, says):
+    error = error_of(text)
+    assert error.value == value
+    assert 'is not registered, and cannot be' in str(error) and says in error.advice
+    assert 'rules file' not in str(error)
+    assert 'a value is a letter' in error.advice
+    assert not isinstance(error, UnregisteredValue)
+    assert says in error_of(text, vocabulary=Vocabulary.bundled().opened()).advice
+
+
+@pytest.mark.parametrize('text, says', [
+    ('rocon:/kitkat', "'kitkat' is an operating_system"),
+    ('rocon:/*/*/*/noetic', "'noetic' is an application_framework"),
+    ('rocon:/jade', "'jade' is an application_framework"),
+    ('rocon:/lunar', "'lunar' is an application_framework and an operating_system"),
+    ('rocon:/*/*/pr2', "'pr2' is a hardware_platform"),
+])
+def test_a_value_of_another_field_is_said_to_be_one(text, says):
+    error = error_of(text)
+    assert error.advice == says
+    assert isinstance(error, UnregisteredValue)
+
+
+def test_a_value_is_also_looked_for_by_its_parts():
+    assert error_of('rocon:/nao').suggestions == ['aldebaran_nao']
+    assert error_of('rocon:/my_pr2').suggestions == ['pr2']
+    assert error_of('rocon:/my_own').suggestions == []
+    again = pickle.loads(pickle.dumps(error_of('rocon:/nao')))
+    assert again.suggestions == ['aldebaran_nao']

@@ -5,10 +5,13 @@ This module decides what a ``*`` in a list means: it makes the whole list ``*``.
 """
 from __future__ import annotations
 
+import re
+
 from rocon_uri.exceptions import RoconURIValueError, UnregisteredValue
-from rocon_uri.grammar import ALTERNATIVES_LIMIT, NAME_LIMIT
+from rocon_uri.field_vocabulary import FieldVocabulary
+from rocon_uri.grammar import ALTERNATIVES_LIMIT, NAME_LIMIT, VOCABULARY_FIELDS
 from rocon_uri.sources.ros_names import is_legal_base_name
-from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.wording import quoted, with_article
 from rocon_uri.vocabulary import Vocabulary
 
 TYPE_CHECKING = False
@@ -30,8 +33,8 @@ def read_alternatives(field: str, text: str, vocabulary: Vocabulary) -> Tuple[st
     :returns: tuple of str, in the order of the text, without duplicates; ``('*',)`` if one of
         them is ``*``, though the others must be registered all the same
     :raises UnregisteredValue: for a value that the vocabulary does not have
-    :raises RoconURIValueError: for an empty alternative, for too many, and for a value that an
-        open vocabulary refuses; ``span`` is where in ``text`` the fault is
+    :raises RoconURIValueError: for an empty alternative, for too many, and for what no vocabulary
+        can have; ``span`` is where in ``text`` the fault is
 
     >>> everything = Vocabulary.bundled()
     >>> read_alternatives('hardware_platform', 'pr2|kobuki|pr2', everything)
@@ -62,12 +65,38 @@ def read_alternatives(field: str, text: str, vocabulary: Vocabulary) -> Tuple[st
 def _check_unregistered(field: str, value: str, text: str, span: Tuple[int, int],
                         vocabulary: Vocabulary) -> None:
     """Raise unless the vocabulary is open and the value is a ROS base name."""
+    known = vocabulary.field(field)
+    if not is_legal_base_name(value) or len(value) > NAME_LIMIT:
+        problem = ('is not a ROS base name of at most %d characters' % NAME_LIMIT
+                   if vocabulary.is_open else 'is not registered, and cannot be')
+        raise RoconURIValueError('%s %s %s' % (field, quoted(value), problem), text, field, value,
+                                 span, candidates=known, advice=_what_to_write(text, value, known))
     if not vocabulary.is_open:
+        others = [other for other in VOCABULARY_FIELDS if value in vocabulary.field(other)]
         raise UnregisteredValue(
             '%s %s is not registered' % (field, quoted(value)), text, field, value, span,
-            candidates=vocabulary.field(field),
-            advice='to register it, add it to a rules file that a package exports or that '
+            candidates=known,
+            advice='%s is %s' % (quoted(value), ' and '.join(map(with_article, others)))
+                   if others else
+                   'to register it, add it to a rules file that a package exports or that '
                    'ROCON_URI_RULES names')
-    if not is_legal_base_name(value) or len(value) > NAME_LIMIT:
-        raise RoconURIValueError('%s %s is not a ROS base name of at most %d characters'
-                                 % (field, quoted(value), NAME_LIMIT), text, field, value, span)
+
+
+def _what_to_write(text: str, value: str, known: FieldVocabulary) -> str:
+    """Advice to somebody who wrote a value that no vocabulary can have."""
+    advice = 'a value is a letter, then letters, digits and _'
+    if len(value) > NAME_LIMIT:
+        return advice + ', at most %d characters' % NAME_LIMIT
+    values = re.split('[][(){},;&+*?^$ ]+', text.strip('(){}[]*?+^$'))
+    stem = value.strip('(){}[]*?+.^$')
+    if re.search('[,;&+ ]', value):
+        return advice + '; alternatives have a | between them: %s' % quoted('|'.join(values))
+    if re.search(r'\d\.\d', value):
+        return advice + '; a release has the name that is registered for it, not its number'
+    if text[0] == '(' and text[-1] == ')':
+        return advice + '; alternatives need no parentheses: %s' % quoted(text.strip('()'))
+    if stem != value:
+        advice += '; only the name can be a pattern'
+        if known.children(stem):
+            advice += ', but the group %s covers its members' % quoted(stem)
+    return advice

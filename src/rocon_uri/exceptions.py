@@ -5,7 +5,7 @@ The text of an error is one line fit for a log, whatever the input was. Its part
 """
 from __future__ import annotations
 
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.sources.wording import did_you_mean, near_misses, near_parts, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -106,6 +106,13 @@ class RoconURIValueError(ValueError):
 
 class UnregisteredValue(RoconURIValueError):
     """A value that the vocabulary does not have; a more complete one may."""
+
+    @property
+    def suggestions(self) -> List[str]:
+        """Near misses by letters, then by the parts between underscores; as in the base class."""
+        candidates = list(self._candidates() if callable(self._candidates) else self._candidates)
+        return list(dict.fromkeys(near_misses(self.value, candidates)
+                                  + near_parts(self.value, candidates)))[:3]
 
 
 class PatternTooComplex(RoconURIValueError):

@@ -5,8 +5,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Dict, Iterable, List
 
-__all__ = ['NamesByPart', 'did_you_mean', 'near_misses', 'near_names', 'printable', 'quoted',
-           'quoted_path']
+__all__ = ['NamesByPart', 'did_you_mean', 'near_misses', 'near_names', 'near_parts', 'printable',
+           'quoted', 'quoted_path', 'with_article']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _FEW_NAMES = 500        # of which each is compared, at about 20 us
@@ -98,6 +98,32 @@ class NamesByPart:
 def _parts(name: str) -> List[str]:
     package, _, own_name = name.partition('/')
     return [package + '/', '/' + own_name]
+
+
+def near_parts(text: str, candidates: Iterable[str]) -> List[str]:
+    """
+    The candidates whose parts between underscores contain, or are contained in, those of a text.
+
+    >>> near_parts('nao', ['aldebaran_nao', 'nano']), near_parts('my_pr2', ['pr2', 'pr2_other'])
+    (['aldebaran_nao'], ['pr2'])
+    """
+    if len(text) > _NEAR_LENGTH:
+        return []
+    parts = set(text.lower().split('_'))
+    found = [(len(parts ^ others), candidate) for candidate in candidates
+             for others in [set(candidate.lower().split('_'))]
+             if parts <= others or others <= parts]
+    return [candidate for _, candidate in sorted(found)[:3]]
+
+
+def with_article(noun: str) -> str:
+    """
+    A noun with the article that it takes.
+
+    >>> with_article('hardware_platform'), with_article('operating_system')
+    ('a hardware_platform', 'an operating_system')
+    """
+    return ('an ' if noun[0] in 'aeiou' else 'a ') + noun
 
 
 def did_you_mean(suggestions: Iterable[str]) -> str:
