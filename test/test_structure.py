@@ -23,7 +23,7 @@ LEVELS = (
     ('field_vocabulary', 'vocabulary', 'name_pattern'),
     ('alternatives', 'parts', 'field'),
     ('reading', 'uri'),
-    ('compatibility', 'name_index', 'messages', 'platform'),
+    ('compatibility', 'misplaced_name', 'name_index', 'messages', 'platform'),
     ('resource_index',),
     ('resource_database',),
     ('resource_directory',),

@@ -22,10 +22,11 @@ if TYPE_CHECKING:
     from rocon_uri.sources.located import Fault
     from rocon_uri.sources.packages import Package
 
-__all__ = ['Vocabulary', 'complete', 'completed', 'current', 'precedence', 'read_rules',
-           'vocabulary_of_packages', 'with_exported_rules']
+__all__ = ['RULES_FOLDER', 'Vocabulary', 'complete', 'completed', 'current', 'precedence',
+           'read_rules', 'vocabulary_of_packages', 'with_exported_rules']
 
-_RULES_FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'rules')
+#: The folder of the bundled vocabulary.
+RULES_FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'rules')
 _serial_numbers = itertools.count()
 
 
@@ -83,7 +84,7 @@ class Vocabulary:
         import json     # here, since importing the package should be cheap
         rules = {}
         for name in VOCABULARY_FIELDS:
-            with open(os.path.join(_RULES_FOLDER, name + '.json'), encoding='ascii') as rules_file:
+            with open(os.path.join(RULES_FOLDER, name + '.json'), encoding='ascii') as rules_file:
                 rules[name] = json.load(rules_file)
         return cls(rules)
 

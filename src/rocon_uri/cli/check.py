@@ -94,6 +94,7 @@ def main(args: argparse.Namespace) -> int:
         _show(answer)
     for given in answer.uris:
         given.mention_one_slash()
+        given.mention_misplaced_name()
     return report.status or (0 if answer.compatible else 1)
 
 

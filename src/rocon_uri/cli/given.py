@@ -7,6 +7,7 @@ import sys
 from rocon_uri.cli.lines import read_lines
 from rocon_uri.cli.progress import beside_progress
 from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.misplaced_name import misplaced_name
 from rocon_uri.sources.wording import quoted, quoted_path
 from rocon_uri.uri import parse
 
@@ -47,6 +48,12 @@ class GivenURI:
         if self.uri.read_with_one_slash:
             say('rocon_uri: note: %s is read as %s, since %s is a hardware_platform, not a concert'
                 % (quoted(self.text), quoted(self.uri.short), self.uri.hardware_platform))
+
+    def mention_misplaced_name(self) -> None:
+        """Say it if the name is probably meant as a value of another field."""
+        note = misplaced_name(self.uri)
+        if note:
+            say('rocon_uri: note: in %s, %s' % (quoted(self.text), note))
 
     def as_json(self) -> Dict[str, object]:
         """URI, as ``rocon_uri --help`` describes it."""

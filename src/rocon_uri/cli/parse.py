@@ -6,7 +6,8 @@ Example:
 
 Prints each URI with its canonical text, which has all fields, its short one, and
 its fields; concert_name and rocon_app where they are set. A note says so if //
-was read as /, as in rocon://turtlebot2/bob.
+was read as /, as in rocon://turtlebot2/bob, and if the name is a value of another
+field, as in rocon:/pc/kitkat.
 
 Exit status: 0 if all are legal, else 2; the legal ones are shown in any case.
 JSON: {"uris": [URI, ...], "errors": [ERROR, ...]}
@@ -38,6 +39,7 @@ def main(args: argparse.Namespace) -> int:
             if not args.json:
                 _show(given, is_first=not legal)
             given.mention_one_slash()
+            given.mention_misplaced_name()
             legal.append(given)
     if args.json:
         print_json({'uris': [given.as_json() for given in legal], 'errors': report.errors})
