@@ -1,8 +1,10 @@
 """match with more lines than are read at once."""
+import json
 import os
 import random
 import subprocess
 import sys
+from itertools import zip_longest
 
 import pytest
 from sources import ROOT, SOURCE
@@ -48,7 +50,10 @@ def test_the_answers_are_those_of_a_loop_in_the_order_of_the_file(lines, file, c
     printed = capsys.readouterr()
     assert printed.out.splitlines()[1 + len(REQUESTS):] == expected
     bad = [number for number, line in enumerate(lines, 1) if line == 'rocon:/zork']
-    assert [error.split(':')[1] for error in printed.err.splitlines()] == list(map(str, bad))
+    first, others = printed.err.splitlines()
+    assert first.startswith("%s:%d: hardware_platform 'zork' is not registered" % (file, bad[0]))
+    assert others == "%s: hardware_platform 'zork' is not registered, also on lines %s and 6 more" % (
+        file, ', '.join(map(str, bad[1:6])))
 
 
 def test_a_pipe_gives_the_same_as_a_file(file):
@@ -85,16 +90,134 @@ def test_a_terminal_shows_how_far_it_is(file):
     seen = stderr_on_a_terminal('pass', file)
     assert '100%' in seen
     errors = [line for line in seen.split('\r') if 'zork' in line]
-    assert len(errors) == 12 and all(error.startswith(file) for error in errors)
-    assert seen.rpartition('\r')[0].rpartition('\r')[2].isspace()      # nothing remains of the bar
+    assert len(errors) == 2 and all(error.startswith(file) for error in errors)
+    before, last, after = seen.rpartition(file)     # nothing remains of the bar
+    assert before.split('\r')[-2].isspace() and before[-1] == '\r' and after.count('\n') == 1
 
 
 def test_without_tqdm_there_are_only_the_errors(file):
     seen = stderr_on_a_terminal('import sys; sys.modules["tqdm"] = None', file)
-    assert seen.count('\r\n') == seen.count(file) == 12 and '%' not in seen
+    assert seen.count('\r\n') == seen.count(file) == 2 and '%' not in seen
 
 
 def test_a_small_file_needs_no_bar(tmp_path):
     path = tmp_path / 'fleet.txt'
     path.write_text('rocon:/pr2\n' * 3, encoding='ascii')
     assert stderr_on_a_terminal('pass', str(path)) == ''
+
+
+# Faults that many lines have
+
+def errors_of(content, tmp_path, capsys, *arguments):
+    path = tmp_path / 'fleet.txt'
+    path.write_bytes(content)
+    assert main(['match', 'rocon:/pr2', '--in', str(path), *arguments]) == 2
+    printed = capsys.readouterr()
+    return printed.out, printed.err.replace(str(path), 'fleet.txt').splitlines()
+
+
+def test_a_fault_of_many_lines_is_said_once_and_counted(tmp_path, capsys):
+    lines = ['rocon:/our_robot/bob_%d' % number for number in range(1000)]
+    lines[10:10] = ['rocon:/pr2/our_robot', 'rocon:/our_robot|pr2/3bob', 'rocon:/pr2|our_robot/al',
+                    'rocon:/pr2/*/our_robot', '# rocon:/our_robot', 'rocon:/our_robot/3bob']
+    lines += ['rocon:/pr2/b b', 'rocon:/pr2/c c', 'zork']
+    printed, errors = errors_of('\n'.join(lines).encode(), tmp_path, capsys)
+    assert printed == 'rocon:/pr2/our_robot\n'
+    for error, start in zip_longest(errors, [
+            "fleet.txt:1: hardware_platform 'our_robot' is not registered (did you mean 'robot'?)",
+            "fleet.txt:14: application_framework 'our_robot' is not registered",
+            'fleet.txt:1007: a rocon URI has no white space (U+0020)',
+            "fleet.txt:1009: 'zork' does not start with 'rocon:'",
+            "fleet.txt: hardware_platform 'our_robot' is not registered, also",
+            'fleet.txt: a rocon URI has no white space (U+0020), also']):
+        assert error.startswith(start)
+    assert errors[-2].endswith('also on lines 2, 3, 4, 5, 6 and 997 more')
+    assert errors[-1].endswith('also on line 1008')
+
+
+def test_as_json_they_are_an_error_too(tmp_path, capsys):
+    printed, _ = errors_of(b'rocon:/our_robot\n' * 20, tmp_path, capsys, '--json')
+    errors = json.loads(printed)['errors']
+    assert [error['line'] for error in errors] == [1, None]
+    assert errors[1]['message'].endswith('also on lines 2, 3, 4, 5, 6 and 14 more')
+
+
+# Text that is not UTF-8
+
+@pytest.mark.parametrize('encoding, octet, offset', [
+    ('utf-16', 0xff, 0), ('utf-16-le', 0, 1), ('utf-16-be', 0, 0)])
+def test_utf_16_is_said_to_be_that(encoding, octet, offset, tmp_path, capsys):
+    _, errors = errors_of('rocon:/pr2\nrocon:/pr2/bob\n'.encode(encoding), tmp_path, capsys)
+    assert errors == ["rocon_uri: cannot read 'fleet.txt': it is UTF-16, not UTF-8: "
+                      'byte 0x%02x at offset %d' % (octet, offset)]
+
+
+def test_other_bytes_are_said_to_be_not_utf_8(tmp_path, capsys):
+    content = 'rocon:/pr2/b\xf6b\n# \xf6\nrocon:/pr2\nrocon:/pr2/\xe4\n'.encode('latin-1')
+    printed, errors = errors_of(content, tmp_path, capsys)
+    assert printed == 'rocon:/pr2\n'
+    assert errors == [
+        "fleet.txt:1: 'rocon:/pr2/b\\udcf6b' is not UTF-8 (Latin-1?): byte 0xf6 at offset 12",
+        'fleet.txt: not UTF-8 (Latin-1?), also on line 4']
+    assert main(['parse', 'rocon:/pr2/\udcff']) == 2
+    assert 'not UTF-8 (Latin-1?): byte 0xff at offset 11' in capsys.readouterr().err
+
+
+# Where nothing is found
+
+FLEET = '''rocon:/pr2/alice/noetic/focal
+rocon:/pr2/bob_7/hydro/precise
+rocon:/kobuki/bob/hydro/precise
+rocon://north/pr2/alice/groovy
+'''
+
+
+@pytest.mark.parametrize('requests, says', [
+    (['rocon:/pr2/bob/noetic'], "1: 'rocon:/pr2/alice/noetic/focal', excluded by name "
+     "('alice', requested 'bob')"),
+    (['rocon:/pr2/bob_8/hydro'], "2: 'rocon:/pr2/bob_7/hydro/precise', excluded by name "
+     "('bob_7', requested 'bob_8')"),
+    (['rocon:/kobuki/*/noetic'], "3: 'rocon:/kobuki/bob/hydro/precise', excluded by "
+     "application_framework ('hydro', requested 'noetic')"),
+    (['rocon:/husky/*/noetic/jammy'], "1: 'rocon:/pr2/alice/noetic/focal', excluded by "
+     "hardware_platform ('pr2', requested 'husky') and operating_system "
+     "('focal', requested 'jammy')"),
+])
+def test_the_nearest_resource_is_named_with_what_excludes_it(requests, says, tmp_path, capsys):
+    path = tmp_path / 'fleet.txt'
+    path.write_text(FLEET)
+    for more in [], ['--json'], ['--matrix']:
+        assert main(['match', *requests, '--in', str(path), *more]) == 1
+        assert capsys.readouterr().err == (
+            'rocon_uri: note: nothing found; the nearest is %s:%s\n' % (path, says))
+
+
+def test_of_several_requests_the_one_that_came_nearest_is_named(tmp_path, capsys):
+    path = tmp_path / 'fleet.txt'
+    path.write_text(FLEET)
+    assert main(['match', 'rocon:/pc/x', 'rocon:/pr2/bob_8', '--in', str(path)]) == 1
+    assert "nothing found for 'rocon:/pr2/bob_8'; the nearest is" in capsys.readouterr().err
+
+
+def test_an_empty_fleet_is_said_to_be_one(tmp_path, capsys):
+    path = tmp_path / 'fleet.txt'
+    path.write_text('# nobody\n')
+    assert main(['match', 'rocon:/', '--in', str(path)]) == 1
+    assert 'nothing found: there are no resources' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('more', [[], ['--json']])
+def test_why_is_check(more, capsys):
+    pair = ['rocon:/robot/b*/ros', 'rocon:/pr2/alice']
+    assert main(['check', *pair, *more]) == 1
+    expected = capsys.readouterr()
+    assert main(['match', '--why', *pair, *more]) == 1
+    assert capsys.readouterr() == expected
+
+
+@pytest.mark.parametrize('arguments', [
+    ['--why', 'rocon:/pr2'], ['--why', 'rocon:/pr2', 'rocon:/pr2', 'rocon:/pr2'],
+    ['--why', 'rocon:/pr2', 'rocon:/pr2', '--in', '-'], ['rocon:/pr2', 'rocon:/pr2']])
+def test_why_takes_two_uris_and_match_a_file(arguments, capsys):
+    assert main(['match', *arguments]) == 2
+    assert capsys.readouterr().err.startswith('rocon_uri match: error: ')

@@ -1,22 +1,26 @@
 """The URIs that a verb is given, as arguments and in files, and a report of the bad ones."""
 from __future__ import annotations
 
-import itertools
 import sys
 
 from rocon_uri.cli.lines import read_lines
 from rocon_uri.cli.progress import beside_progress
-from rocon_uri.exceptions import RoconURIValueError
+from rocon_uri.exceptions import RoconURIValueError, UnregisteredValue
 from rocon_uri.misplaced_name import misplaced_name
 from rocon_uri.sources.wording import quoted, quoted_path
 from rocon_uri.uri import parse
+from rocon_uri.vocabulary import Vocabulary
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Dict, Iterator, List, Optional, Sequence, Tuple
+    from typing import Dict, Iterator, List, Optional, Sequence, Set, Tuple
     from rocon_uri.uri import RoconURI
+    Line = Tuple[RoconURI, str, int]    # the URI, its text, the line from 1
 
-__all__ = ['GivenURI', 'Report', 'say']
+__all__ = ['GivenURI', 'Report', 'not_utf8', 'say', 'shown_name']
+
+_LINES_NAMED = 5    # of those that have the same fault
+_NOT_UTF8 = 'not UTF-8 (Latin-1?)'
 
 
 def say(text: str) -> None:
@@ -95,38 +99,51 @@ class Report:
             self.bad_uri(error, file, line)
             return None
 
-    def read_file(self, path: str) -> Iterator[List[GivenURI]]:
+    def read_file(self, path: str) -> Iterator[GivenURI]:
+        """Read a file of URIs, as `read_lines` does."""
+        for batch in self.read_lines(path):
+            for uri, text, line in batch:
+                yield GivenURI(uri, text, shown_name(path), line)
+
+    def read_lines(self, path: str) -> Iterator[List[Line]]:
         """
         Read a file of URIs, one a line; ``-`` is standard input.
 
         Blank lines and those whose first character is ``#`` are skipped. Those that are not legal
-        are reported. Each list that is yielded is what can be had without waiting.
+        are reported: a fault that many lines have in full where it is met first, and the others
+        at the end. Each list that is yielded is what can be had without waiting.
         """
-        name = '<stdin>' if path == '-' else path
-        numbers = itertools.count(1)
+        faults = _FaultsOfFile(self, shown_name(path))
+        number = 0
         try:
             for lines in read_lines(path):
                 batch = []
-                for line, number in zip(lines, numbers):
+                for number, line in enumerate(lines, number + 1):
                     text = line.strip()
-                    if text and line[0] != '#':
-                        given = self.read(text, name, number)
-                        if given:
-                            batch.append(given)
+                    if text and line[0] != '#' and not (
+                            faults.unregistered and faults.is_counted(text, number)):
+                        try:
+                            batch.append((parse(text), text, number))
+                        except RoconURIValueError as error:
+                            faults.add(error, number)
                 yield batch
-        except OSError as error:
-            message = 'cannot read %s: %s' % (quoted_path(name), error.strerror or error)
+        except (OSError, UnicodeError) as error:
+            message = 'cannot read %s: %s' % (
+                quoted_path(shown_name(path)), getattr(error, 'strerror', None) or error)
             say('rocon_uri: ' + message)
-            self.note(message, name)
+            self.note(message, shown_name(path))
+        faults.say_others()
 
     def bad_uri(self, error: RoconURIValueError, file: Optional[str] = None,
                 line: Optional[int] = None) -> None:
         """Report a fault in a URI."""
-        if file is None:
-            say('rocon_uri: ' + error.pretty())
+        fault = not_utf8(error.uri)
+        message = '%s is %s' % (quoted(error.uri), fault) if fault else str(error)
+        if file is not None:
+            say('%s:%s: %s' % (file, line, message))
         else:
-            say('%s:%s: %s' % (file, line, error))
-        self.note(str(error), file, line, error.suggestions, error.uri, error.field, error.value,
+            say('rocon_uri: ' + (message if fault else error.pretty()))
+        self.note(message, file, line, error.suggestions, error.uri, error.field, error.value,
                   error.span)
 
     def note(self, message: str, file: Optional[str], line: Optional[int] = None,
@@ -139,3 +156,86 @@ class Report:
             self.errors.append({
                 'message': message, 'uri': uri, 'field': field, 'value': value, 'span': span,
                 'suggestions': list(suggestions), 'file': file, 'line': line})
+
+
+def shown_name(path: str) -> str:
+    """What a file is called in messages."""
+    return '<stdin>' if path == '-' else path
+
+
+def not_utf8(text: str) -> str:
+    """What is wrong with a text that has bytes which are not UTF-8, as surrogates; '' if none."""
+    try:
+        text.encode('utf-8')
+        return ''
+    except UnicodeEncodeError as error:
+        octets = text.encode('utf-8', 'surrogatepass' if error.object[error.start] < '\udc80'
+                             else 'surrogateescape')
+        offset = len(text[:error.start].encode('utf-8'))
+        return '%s: byte 0x%02x at offset %d' % (_NOT_UTF8, octets[offset], offset)
+
+
+class _FaultsOfFile:
+    """
+    The faults in the lines of a file: one of each kind is reported in full, the others counted.
+
+    A kind is what `RoconURIValueError.problem` says, which quotes the value.
+    """
+
+    def __init__(self, report: Report, file: str) -> None:
+        self._report = report
+        self._file = file
+        self._counts: Dict[str, int] = {}           # of lines, by kind
+        self._others: Dict[str, List[int]] = {}     # a few lines of a kind, the first one left out
+        self._kinds: Dict[Tuple[str, str], str] = {}    # by field and value that is not registered
+        #: set of str, texts of fields in which a value was not registered
+        self.unregistered: Set[str] = set()
+
+    def add(self, error: RoconURIValueError, number: int) -> None:
+        """Report the fault of a line, or count it."""
+        if self._is_first(_NOT_UTF8 if not_utf8(error.uri) else error.problem, number):
+            self._report.bad_uri(error, self._file, number)
+        if isinstance(error, UnregisteredValue):
+            self._kinds[error.field, error.value] = error.problem
+            self.unregistered.update(field for field in _fields(error.uri)
+                                     if error.value in field.split('|'))
+
+    def is_counted(self, text: str, number: int) -> bool:
+        """
+        Is the fault of a line a value that was not registered before? Then the line is counted.
+
+        It takes as long as reading a line without a fault, a tenth of what raising an error takes.
+        """
+        if self.unregistered.isdisjoint(_fields(text)):
+            return False
+        try:
+            uri = parse(text, Vocabulary.open())
+        except RoconURIValueError:
+            return False
+        for field in uri.hardware_platform, uri.application_framework, uri.operating_system:
+            if field.others:
+                value = next(value for value in field if value in field.others)
+                kind = self._kinds.get((field.field_name, value))
+                return kind is not None and not self._is_first(kind, number)
+        return False
+
+    def _is_first(self, kind: str, number: int) -> bool:
+        count = self._counts.get(kind, 0)
+        self._counts[kind] = count + 1
+        if 0 < count <= _LINES_NAMED:
+            self._others.setdefault(kind, []).append(number)
+        return not count
+
+    def say_others(self) -> None:
+        """Say which other lines have the faults that were reported."""
+        for kind, lines in self._others.items():
+            more = self._counts[kind] - 1 - len(lines)
+            message = '%s: %s, also on line%s %s%s' % (
+                self._file, kind, 's' if len(lines) > 1 else '', ', '.join(map(str, lines)),
+                ' and %d more' % more if more else '')
+            say(message)
+            self._report.note(message, self._file)
+
+
+def _fields(text: str) -> List[str]:
+    return text.partition('#')[0].split('/')

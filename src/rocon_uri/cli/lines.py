@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import os
 import stat
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 
 from rocon_uri.cli.progress import progress
 from rocon_uri.grammar import TEXT_LIMIT
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = ['read_lines']
 
 _BATCH = 1 << 20    # bytes
+_START = 200        # bytes that are enough to recognise UTF-16
 
 
 def read_lines(path: str) -> Iterator[List[str]]:
@@ -26,6 +28,7 @@ def read_lines(path: str) -> Iterator[List[str]]:
     :returns: iterator of lists of str, each with the lines that can be read without waiting, at
         most a few megabytes; bytes that are not UTF-8 become surrogates
     :raises OSError: if it cannot be read
+    :raises UnicodeError: if it is UTF-16
     """
     with open(0 if path == '-' else path, 'rb', closefd=path != '-') as file:
         status = os.fstat(file.fileno())
@@ -34,6 +37,8 @@ def read_lines(path: str) -> Iterator[List[str]]:
             while read:
                 octets = file.read1(_BATCH)
                 bar.update(len(octets))
+                if encoding == 'utf-8-sig' and octets:
+                    _refuse_utf16(octets)
                 read = bool(octets)
                 whole, newline, rest = (rest + octets).rpartition(b'\n')
                 if not read:
@@ -42,3 +47,15 @@ def read_lines(path: str) -> Iterator[List[str]]:
                 if whole or newline:
                     yield whole.decode(encoding, 'surrogateescape').split('\n')
                     encoding = 'utf-8'
+
+
+def _refuse_utf16(octets: bytes) -> None:
+    """Raise if a file that starts with these bytes is UTF-16: by its mark, or every other is 0."""
+    start = octets[:_START]
+    if start.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+        zero = 0
+    else:
+        zero = next((first for first in (1, 0) if len(start) > 3 and not any(start[first::2])), -1)
+    if zero >= 0:
+        raise UnicodeError('it is UTF-16, not UTF-8: byte 0x%02x at offset %d'
+                           % (start[zero], zero))

@@ -4,13 +4,17 @@ Find the resources that requests are compatible with.
 Examples:
   rocon_uri match 'rocon:/robot/*/ros' --in fleet.txt
   rocon_uri match --matrix --requests-in apps.txt --in fleet.txt
+  rocon_uri match --why 'rocon:/robot/*/ros' rocon:/pr2/bob/noetic
 
 A FILE has one URI a line; blank lines and lines whose first character is # are
-skipped. Bad lines are reported with their number, and skipped. Standard input is -.
+skipped. Bad lines are reported with their number, and skipped; a fault that many
+lines have is reported once. Standard input is -.
 Prints the compatible resources as written in FILE, one a line; if there are several
 requests, the app or the text of the request comes first. With --matrix prints every
-resource, after a column for each request: x if it fits, . if it does not, ? for name
-patterns that are too complex to compare.
+resource, after a column for each request: x if it fits, . if it does not, ? for
+name patterns that are too complex to compare. If nothing is found, stderr names
+the nearest resource and the fields that exclude it. With --why, says what check
+says about REQUEST and one URI.
 
 Exit status: 0 if anything was found, 1 if nothing was, 2 if a request, a line or a
 file was bad or two name patterns were too complex to compare.
@@ -21,25 +25,31 @@ with --matrix
 """
 from __future__ import annotations
 
-from itertools import chain
+from argparse import Namespace
+from itertools import islice
 
+from rocon_uri.cli import check
 from rocon_uri.cli.display import painter
-from rocon_uri.cli.given import Report, say
+from rocon_uri.cli.given import GivenURI, Report, say, shown_name
 from rocon_uri.cli.progress import beside_progress
-from rocon_uri.compatibility import LEGEND, MARKS, UNDECIDED
+from rocon_uri.compatibility import LEGEND, MARKS, UNDECIDED, explain
 from rocon_uri.exceptions import PatternTooComplex
-from rocon_uri.sources.wording import quoted
-from rocon_uri.resource_index import ResourceIndex
+from rocon_uri.sources.wording import near_misses, quoted
+from rocon_uri.uri import is_compatible, with_any_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Dict, Iterable, Iterator, List, Optional, Tuple
-    from rocon_uri.cli.given import GivenURI
+    from typing import Dict, Iterator, List, Optional, Tuple
+    from rocon_uri.cli.given import Line
+    from rocon_uri.compatibility import Explanation
     from rocon_uri.uri import RoconURI
     Verdicts = List[Optional[bool]]
 
 __all__ = ['add_arguments', 'main']
+
+_KINDS_COMPARED = 1000      # of resources, with each request, to find the nearest
+_NAMES_COMPARED = 1000      # of resources of one kind
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,23 +57,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help='a URI, as what an app runs on')
     parser.add_argument('--requests-in', metavar='FILE',
                         help='take requests from a file, after those given as arguments')
-    parser.add_argument('--in', dest='resources_in', metavar='FILE', required=True,
+    parser.add_argument('--in', dest='resources_in', metavar='FILE',
                         help='the resources to find them among, as robots')
+    parser.add_argument('--why', action='store_true',
+                        help='compare a REQUEST with a URI given after it, as check does')
     parser.add_argument('--matrix', action='store_true', help='show requests against resources')
 
 
 def main(args: argparse.Namespace) -> int:
-    if not args.requests and args.requests_in is None:
-        say('rocon_uri match: error: give a REQUEST, or a file of them with --requests-in')
+    error = _wrong_use(args)
+    if error:
+        say('rocon_uri match: error: ' + error)
         return 2
-    if args.requests_in == args.resources_in == '-':
-        say('rocon_uri match: error: requests and resources cannot both be standard input')
-        return 2
+    if args.why:
+        return check.main(Namespace(a=args.requests[0], b=args.requests[1], json=args.json))
     report = Report(args.json)
     requests = [given for given in map(report.read, args.requests) if given]
     if args.requests_in is not None:
-        requests.extend(chain.from_iterable(report.read_file(args.requests_in)))
-    matches = Matches(requests, report.read_file(args.resources_in), report, args.matrix)
+        requests.extend(report.read_file(args.requests_in))
+    matches = Matches(requests, args.resources_in, report, args.matrix)
     if args.json:
         _print_json(matches, report)
     elif args.matrix:
@@ -73,7 +85,23 @@ def main(args: argparse.Namespace) -> int:
             print(resource.text)
     else:
         _print_pairs(matches)
+    if not matches.found and not matches.undecided and matches.nearest():
+        say('rocon_uri: note: ' + matches.nearest())
     return report.status or (0 if matches.found else 1)
+
+
+def _wrong_use(args: argparse.Namespace) -> str:
+    if args.why:
+        if len(args.requests) == 2 and args.requests_in is None and args.resources_in is None:
+            return ''
+        return '--why takes a REQUEST and a URI to compare it with, and no file'
+    if args.resources_in is None:
+        return 'the following arguments are required: --in'
+    if not args.requests and args.requests_in is None:
+        return 'give a REQUEST, or a file of them with --requests-in'
+    if args.requests_in == args.resources_in == '-':
+        return 'requests and resources cannot both be standard input'
+    return ''
 
 
 class Matches:
@@ -81,56 +109,109 @@ class Matches:
     Which resources which requests are compatible with; iterate it once.
 
     :param requests: list of GivenURI
-    :param resources: iterable of lists of GivenURI
-    :param Report report: gets the undecided pairs, after all others
+    :param path: str, the file of resources
+    :param Report report: gets the faults of lines, and the undecided pairs after all others
     :param bool every: also the resources that no request is compatible with
 
     Iteration gives each resource with a list of what is said of it to each request: a bool, or
-    None for undecided. ``found`` says whether there was a True among those so far.
+    None for undecided. ``found`` says whether there was a True among those so far, ``undecided``
+    lists the resources with a None.
     """
 
-    def __init__(self, requests: List[GivenURI], resources: Iterable[List[GivenURI]],
-                 report: Report, every: bool) -> None:
+    def __init__(self, requests: List[GivenURI], path: str, report: Report, every: bool) -> None:
         self.requests = requests
         self.found = False
-        self._resources = resources
+        self.undecided: List[Tuple[GivenURI, Verdicts]] = []
+        self._path = path
         self._report = report
         self._every = every
+        self._kinds: Dict[Tuple[object, ...], _Kind] = {}
 
     def __iter__(self) -> Iterator[Tuple[GivenURI, Verdicts]]:
-        undecided = []
-        nothing: Verdicts = [False] * len(self.requests)
-        for batch in self._resources:
-            verdicts = self._verdicts(batch)
+        uris = [request.uri for request in self.requests]
+        kinds, file, every = self._kinds, shown_name(self._path), self._every
+        for batch in self._report.read_lines(self._path):
             with beside_progress():
-                for resource in batch:
-                    found = verdicts.get(resource.uri, nothing)
-                    if True in found or self._every:
-                        yield resource, found
-                    if None in found:
-                        undecided.append((resource, found))
-        for resource, found in undecided:
-            for request, verdict in zip(self.requests, found):
+                for line in batch:
+                    uri = line[0]
+                    # fields are remembered, so that equal ones are mostly the same object
+                    key = (id(uri.hardware_platform), id(uri.application_framework),
+                           id(uri.operating_system), uri.concert_name)
+                    kind = kinds.get(key)
+                    if kind is None:
+                        kind = kinds[key] = _Kind(line, uris)
+                    verdicts = kind.verdicts if kind.any_name else kind.verdicts_for(line)
+                    if every or True in verdicts:
+                        self.found = self.found or True in verdicts
+                        yield GivenURI(uri, line[1], file, line[2]), verdicts
+                    if None in verdicts:
+                        self.undecided.append((GivenURI(uri, line[1], file, line[2]), verdicts))
+        for resource, verdicts in self.undecided:
+            for request, verdict in zip(self.requests, verdicts):
                 if verdict is None:
                     self._report.bad_uri(_undecided(request, resource), resource.file,
                                          resource.line)
 
-    def _verdicts(self, resources: List[GivenURI]) -> Dict[RoconURI, Verdicts]:
-        """What is said of resources, but not of those that no request may be compatible with."""
-        index = ResourceIndex(resource.uri for resource in resources)
-        verdicts: Dict[RoconURI, Verdicts] = {}
+    def nearest(self) -> str:
+        """What to say if nothing was found: the nearest resource, and what excludes it."""
+        if not self.requests or not self._kinds:
+            return '' if self._report.status else 'nothing found: there are no %s' % (
+                'resources' if self.requests else 'requests')
+        excluded: List[Tuple[int, bool, GivenURI, Explanation, Line]] = []
+        for request in self.requests:
+            for kind in islice(self._kinds.values(), _KINDS_COMPARED):
+                line = kind.nearest(request.uri)
+                explanation = explain(request.uri, line[0])
+                fields = [field.field for field in explanation.fields if not field.is_compatible]
+                excluded.append((len(fields), 'hardware_platform' in fields, request, explanation,
+                                 line))
+        *_, request, explanation, (_, text, number) = min(excluded, key=lambda found: found[:2])
+        return 'nothing found%s; the nearest is %s:%d: %s, excluded by %s' % (
+            ' for %s' % quoted(request.text) if len(self.requests) > 1 else '',
+            shown_name(self._path), number, quoted(text),
+            ' and '.join('%s (%s, requested %s)' % (field.field, quoted(field.b), quoted(field.a))
+                         for field in explanation.fields if not field.is_compatible))
 
-        def note(uri: RoconURI, place: int, verdict: Optional[bool]) -> None:
-            verdicts.setdefault(uri, [False] * len(self.requests))[place] = verdict
-        for place, request in enumerate(self.requests):
+
+class _Kind:
+    """
+    The resources that differ in their names only, and what they are asked for.
+
+    :param line: one of them
+    :param requests: list of RoconURI
+    """
+
+    def __init__(self, line: Line, requests: List[RoconURI]) -> None:
+        self.uri = line[0]      # it keeps the fields that the kind is found by
+        anyone = with_any_name(self.uri)
+        self._requests = [(place, request) for place, request in enumerate(requests)
+                          if is_compatible(with_any_name(request), anyone)]
+        self._others: List[Line] = [line]       # some that no request is compatible with
+        self._verdicts = [False] * len(requests)
+        #: list of bool or None, what is said of all to each request, if the name does not matter
+        self.verdicts: Verdicts = list(self._verdicts)
+        for place, _ in self._requests:
+            self.verdicts[place] = True
+        #: bool: does it not?
+        self.any_name = all(request.name_text == '*' for _, request in self._requests)
+
+    def verdicts_for(self, line: Line) -> Verdicts:
+        """What is said of one of them to each request."""
+        verdicts: Verdicts = list(self._verdicts)
+        for place, request in self._requests:
             try:
-                for uri in index.find(request.uri):
-                    note(uri, place, True)
-                    self.found = True
-            except PatternTooComplex as error:
-                for uri in error.undecided:
-                    note(uri, place, None)
+                verdicts[place] = is_compatible(request, line[0])
+            except PatternTooComplex:
+                verdicts[place] = None
+        if True not in verdicts and len(self._others) < _NAMES_COMPARED:
+            self._others.append(line)
         return verdicts
+
+    def nearest(self, request: RoconURI) -> Line:
+        """The one whose name is nearest to that of a request."""
+        names = {line[0].name_text: line for line in reversed(self._others)}
+        return next((names[name] for name in near_misses(request.name_text, names)),
+                    self._others[0])
 
 
 def _undecided(request: GivenURI, resource: GivenURI) -> PatternTooComplex:
