@@ -52,8 +52,8 @@ def test_the_answers_are_those_of_a_loop_in_the_order_of_the_file(lines, file, c
     bad = [number for number, line in enumerate(lines, 1) if line == 'rocon:/zork']
     first, others = printed.err.splitlines()
     assert first.startswith("%s:%d: hardware_platform 'zork' is not registered" % (file, bad[0]))
-    assert others == "%s: hardware_platform 'zork' is not registered, also on lines %s and 6 more" % (
-        file, ', '.join(map(str, bad[1:6])))
+    assert others.startswith(file + ": hardware_platform 'zork' is not registered, also on lines ")
+    assert others.endswith(' %s and 6 more' % ', '.join(map(str, bad[1:6])))
 
 
 def test_a_pipe_gives_the_same_as_a_file(file):

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     Resource = Union[str, 'RoconURI']
 
 __all__ = ['RoconURI', 'aligned', 'comparable', 'default_uri_string', 'is_compatible', 'parse',
-           'with_any_name']
+           'parse_once', 'with_any_name']
 
 #: The URI that matches every resource.
 default_uri_string = 'rocon://'
@@ -241,6 +241,11 @@ def parse(rocon_uri_string: Resource = 'rocon:/', vocabulary: Optional[Vocabular
                 memo.clear()
             memo[text] = uri
     return uri
+
+
+def parse_once(text: str, vocabulary: Vocabulary) -> RoconURI:
+    """As `parse`, but the URI is not remembered, which takes a third of the time of a new text."""
+    return _sealed(read_common(text, vocabulary) or read(text, vocabulary, strict=False))
 
 
 def is_compatible(rocon_uri_a: Resource, rocon_uri_b: Resource) -> bool:

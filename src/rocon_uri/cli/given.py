@@ -8,12 +8,12 @@ from rocon_uri.cli.progress import beside_progress
 from rocon_uri.exceptions import RoconURIValueError, UnregisteredValue
 from rocon_uri.misplaced_name import misplaced_name
 from rocon_uri.sources.wording import quoted, quoted_path
-from rocon_uri.uri import parse
-from rocon_uri.vocabulary import Vocabulary
+from rocon_uri.uri import parse, parse_once
+from rocon_uri.vocabulary import Vocabulary, current
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Dict, Iterator, List, Optional, Sequence, Set, Tuple
+    from typing import Dict, Iterable, Iterator, List, Optional, Sequence, Set, Tuple
     from rocon_uri.uri import RoconURI
     Line = Tuple[RoconURI, str, int]    # the URI, its text, the line from 1
 
@@ -105,28 +105,21 @@ class Report:
             for uri, text, line in batch:
                 yield GivenURI(uri, text, shown_name(path), line)
 
-    def read_lines(self, path: str) -> Iterator[List[Line]]:
+    def read_lines(self, path: str) -> Iterator[Iterator[Line]]:
         """
         Read a file of URIs, one a line; ``-`` is standard input.
 
         Blank lines and those whose first character is ``#`` are skipped. Those that are not legal
         are reported: a fault that many lines have in full where it is met first, and the others
-        at the end. Each list that is yielded is what can be had without waiting.
+        at the end. Each iterator that is yielded is to be used up before the next; it has what
+        can be had without waiting.
         """
         faults = _FaultsOfFile(self, shown_name(path))
-        number = 0
+        first = 1
         try:
             for lines in read_lines(path):
-                batch = []
-                for number, line in enumerate(lines, number + 1):
-                    text = line.strip()
-                    if text and line[0] != '#' and not (
-                            faults.unregistered and faults.is_counted(text, number)):
-                        try:
-                            batch.append((parse(text), text, number))
-                        except RoconURIValueError as error:
-                            faults.add(error, number)
-                yield batch
+                yield faults.legal(lines, first)
+                first += len(lines)
         except (OSError, UnicodeError) as error:
             message = 'cannot read %s: %s' % (
                 quoted_path(shown_name(path)), getattr(error, 'strerror', None) or error)
@@ -185,36 +178,58 @@ class _FaultsOfFile:
     def __init__(self, report: Report, file: str) -> None:
         self._report = report
         self._file = file
+        self._open = current()                      # the open one once a value is not registered
         self._counts: Dict[str, int] = {}           # of lines, by kind
         self._others: Dict[str, List[int]] = {}     # a few lines of a kind, the first one left out
         self._kinds: Dict[Tuple[str, str], str] = {}    # by field and value that is not registered
-        #: set of str, texts of fields in which a value was not registered
-        self.unregistered: Set[str] = set()
+        self._unregistered: Set[str] = set()    # texts of fields with a value that is not
 
-    def add(self, error: RoconURIValueError, number: int) -> None:
+    def legal(self, lines: Iterable[str], first: int) -> Iterator[Line]:
+        """The URIs in lines of which the first has this number; what is no URI is reported."""
+        unregistered = self._unregistered
+        for number, line in enumerate(lines, first):
+            try:
+                if unregistered and self._is_counted(line, number):
+                    continue
+                uri = parse_once(line, current())   # most lines have no white space around
+            except RoconURIValueError:
+                if line[:1] == '#' or not line.strip():
+                    continue
+                line = line.strip()
+                try:
+                    uri = parse_once(line, current())
+                except RoconURIValueError as error:
+                    self._add(error, number)
+                    continue
+            yield uri, line, number
+
+    def _add(self, error: RoconURIValueError, number: int) -> None:
         """Report the fault of a line, or count it."""
         if self._is_first(_NOT_UTF8 if not_utf8(error.uri) else error.problem, number):
             self._report.bad_uri(error, self._file, number)
         if isinstance(error, UnregisteredValue):
             self._kinds[error.field, error.value] = error.problem
-            self.unregistered.update(field for field in _fields(error.uri)
-                                     if error.value in field.split('|'))
+            self._open = Vocabulary.open()
+            self._unregistered.update(field for field in _fields(error.uri)
+                                      if error.value in field.split('|'))
 
-    def is_counted(self, text: str, number: int) -> bool:
+    def _is_counted(self, text: str, number: int) -> bool:
         """
         Is the fault of a line a value that was not registered before? Then the line is counted.
 
         It takes as long as reading a line without a fault, a tenth of what raising an error takes.
         """
-        if self.unregistered.isdisjoint(_fields(text)):
+        if self._unregistered.isdisjoint(_fields(text)):
             return False
         try:
-            uri = parse(text, Vocabulary.open())
+            uri = parse_once(text, self._open)
         except RoconURIValueError:
             return False
         for field in uri.hardware_platform, uri.application_framework, uri.operating_system:
             if field.others:
-                value = next(value for value in field if value in field.others)
+                value = field.string
+                if value not in field.others:
+                    value = next(value for value in field if value in field.others)
                 kind = self._kinds.get((field.field_name, value))
                 return kind is not None and not self._is_first(kind, number)
         return False
@@ -238,4 +253,4 @@ class _FaultsOfFile:
 
 
 def _fields(text: str) -> List[str]:
-    return text.partition('#')[0].split('/')
+    return (text.partition('#')[0] if '#' in text else text).split('/')

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ['read_lines']
 
-_BATCH = 1 << 20    # bytes
+_BATCH = 1 << 17    # bytes
 _START = 200        # bytes that are enough to recognise UTF-16
 
 

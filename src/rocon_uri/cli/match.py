@@ -25,8 +25,9 @@ with --matrix
 """
 from __future__ import annotations
 
+import sys
 from argparse import Namespace
-from itertools import islice
+from itertools import chain, islice
 
 from rocon_uri.cli import check
 from rocon_uri.cli.display import painter
@@ -81,8 +82,9 @@ def main(args: argparse.Namespace) -> int:
     elif args.matrix:
         _print_matrix(matches)
     elif args.requests_in is None and len(args.requests) == 1:
-        for resource, _ in matches:
-            print(resource.text)
+        write = sys.stdout.write
+        for (_, text, _), _ in matches:
+            write(text + '\n')
     else:
         _print_pairs(matches)
     if not matches.found and not matches.undecided and matches.nearest():
@@ -113,24 +115,25 @@ class Matches:
     :param Report report: gets the faults of lines, and the undecided pairs after all others
     :param bool every: also the resources that no request is compatible with
 
-    Iteration gives each resource with a list of what is said of it to each request: a bool, or
-    None for undecided. ``found`` says whether there was a True among those so far, ``undecided``
-    lists the resources with a None.
+    Iteration gives each resource, as a `Line`, with a list of what is said of it to each request:
+    a bool, or None for undecided. ``found`` says whether there was a True among those so far,
+    ``undecided`` lists the resources with a None.
     """
 
     def __init__(self, requests: List[GivenURI], path: str, report: Report, every: bool) -> None:
         self.requests = requests
         self.found = False
-        self.undecided: List[Tuple[GivenURI, Verdicts]] = []
-        self._path = path
+        self.undecided: List[Tuple[Line, Verdicts]] = []
+        self.path = path
         self._report = report
         self._every = every
         self._kinds: Dict[Tuple[object, ...], _Kind] = {}
 
-    def __iter__(self) -> Iterator[Tuple[GivenURI, Verdicts]]:
+    def __iter__(self) -> Iterator[Tuple[Line, Verdicts]]:
         uris = [request.uri for request in self.requests]
-        kinds, file, every = self._kinds, shown_name(self._path), self._every
-        for batch in self._report.read_lines(self._path):
+        nothing: Verdicts = [False] * len(uris)
+        kinds, every = self._kinds, self._every
+        for batch in self._report.read_lines(self.path):
             with beside_progress():
                 for line in batch:
                     uri = line[0]
@@ -139,18 +142,22 @@ class Matches:
                            id(uri.operating_system), uri.concert_name)
                     kind = kinds.get(key)
                     if kind is None:
-                        kind = kinds[key] = _Kind(line, uris)
-                    verdicts = kind.verdicts if kind.any_name else kind.verdicts_for(line)
+                        kind = kinds[key] = _Kind(line, uris, nothing)
+                    if kind.verdicts is nothing and not every:
+                        continue
+                    verdicts = kind.verdicts or kind.verdicts_for(line)
+                    if verdicts is nothing and not every:
+                        continue
                     if every or True in verdicts:
                         self.found = self.found or True in verdicts
-                        yield GivenURI(uri, line[1], file, line[2]), verdicts
+                        yield line, verdicts
                     if None in verdicts:
-                        self.undecided.append((GivenURI(uri, line[1], file, line[2]), verdicts))
-        for resource, verdicts in self.undecided:
+                        self.undecided.append((line, verdicts))
+        for (uri, text, number), verdicts in self.undecided:
             for request, verdict in zip(self.requests, verdicts):
                 if verdict is None:
-                    self._report.bad_uri(_undecided(request, resource), resource.file,
-                                         resource.line)
+                    self._report.bad_uri(_undecided(request, uri, text), shown_name(self.path),
+                                         number)
 
     def nearest(self) -> str:
         """What to say if nothing was found: the nearest resource, and what excludes it."""
@@ -168,7 +175,7 @@ class Matches:
         *_, request, explanation, (_, text, number) = min(excluded, key=lambda found: found[:2])
         return 'nothing found%s; the nearest is %s:%d: %s, excluded by %s' % (
             ' for %s' % quoted(request.text) if len(self.requests) > 1 else '',
-            shown_name(self._path), number, quoted(text),
+            shown_name(self.path), number, quoted(text),
             ' and '.join('%s (%s, requested %s)' % (field.field, quoted(field.b), quoted(field.a))
                          for field in explanation.fields if not field.is_compatible))
 
@@ -179,31 +186,48 @@ class _Kind:
 
     :param line: one of them
     :param requests: list of RoconURI
+    :param nothing: list of a False for each request
     """
 
-    def __init__(self, line: Line, requests: List[RoconURI]) -> None:
+    def __init__(self, line: Line, requests: List[RoconURI], nothing: Verdicts) -> None:
         self.uri = line[0]      # it keeps the fields that the kind is found by
-        anyone = with_any_name(self.uri)
-        self._requests = [(place, request) for place, request in enumerate(requests)
-                          if is_compatible(with_any_name(request), anyone)]
+        self._nothing = nothing
         self._others: List[Line] = [line]       # some that no request is compatible with
-        self._verdicts = [False] * len(requests)
-        #: list of bool or None, what is said of all to each request, if the name does not matter
-        self.verdicts: Verdicts = list(self._verdicts)
-        for place, _ in self._requests:
-            self.verdicts[place] = True
-        #: bool: does it not?
-        self.any_name = all(request.name_text == '*' for _, request in self._requests)
+        anyone = with_any_name(self.uri)
+        fitting = [(place, request) for place, request in enumerate(requests)
+                   if is_compatible(with_any_name(request), anyone)]
+        self._with_pattern = [(place, request) for place, request in fitting
+                              if request.name_pattern is not None]
+        self._with_name: Dict[str, List[Tuple[int, RoconURI]]] = {}
+        for place, request in fitting:
+            if request.name_pattern is None:
+                self._with_name.setdefault(request.name_text, []).append((place, request))
+        #: list of bool, what is said to each request of all of them; None if that needs the name
+        self.verdicts: Optional[Verdicts] = None
+        if all(request.name_text == '*' for _, request in fitting):
+            places = {place for place, _ in fitting}
+            self.verdicts = (
+                [place in places for place in range(len(requests))] if fitting else nothing)
 
     def verdicts_for(self, line: Line) -> Verdicts:
         """What is said of one of them to each request."""
-        verdicts: Verdicts = list(self._verdicts)
-        for place, request in self._requests:
+        uri = line[0]
+        asked = self._with_pattern
+        if uri.name_pattern is not None:
+            asked = asked + list(chain.from_iterable(self._with_name.values()))
+        elif uri.name_text in self._with_name:
+            asked = asked + self._with_name[uri.name_text]
+        verdicts = self._nothing
+        for place, request in asked:
             try:
-                verdicts[place] = is_compatible(request, line[0])
+                verdict: Optional[bool] = is_compatible(request, uri)
             except PatternTooComplex:
-                verdicts[place] = None
-        if True not in verdicts and len(self._others) < _NAMES_COMPARED:
+                verdict = None
+            if verdict is not False:
+                if verdicts is self._nothing:
+                    verdicts = list(verdicts)
+                verdicts[place] = verdict
+        if verdicts is self._nothing and len(self._others) < _NAMES_COMPARED:
             self._others.append(line)
         return verdicts
 
@@ -214,21 +238,23 @@ class _Kind:
                     self._others[0])
 
 
-def _undecided(request: GivenURI, resource: GivenURI) -> PatternTooComplex:
+def _undecided(request: GivenURI, resource: RoconURI, text: str) -> PatternTooComplex:
     return PatternTooComplex(
         'undecided for request %s: name patterns %s and %s are too complex to compare' % tuple(map(
-            quoted, (request.text, request.uri.name.string, resource.uri.name.string))),
-        resource.text, 'name', resource.uri.name.string,
+            quoted, (request.text, request.uri.name_text, resource.name_text))),
+        text, 'name', resource.name_text,
         advice='use simpler ones, without large counts')
 
 
 def _print_pairs(matches: Matches) -> None:
     width = max((len(request.label) for request in matches.requests), default=0)
     paint = painter()
-    for resource, verdicts in matches:
-        for request, verdict in zip(matches.requests, verdicts):
+    labels = [paint(request.label.ljust(width), 'cyan') + '  ' for request in matches.requests]
+    write = sys.stdout.write
+    for (_, text, _), verdicts in matches:
+        for label, verdict in zip(labels, verdicts):
             if verdict:
-                print('%s  %s' % (paint(request.label.ljust(width), 'cyan'), resource.text))
+                write(label + text + '\n')
 
 
 def _print_matrix(matches: Matches) -> None:
@@ -238,8 +264,8 @@ def _print_matrix(matches: Matches) -> None:
         print('| ' * index + paint(request.label, 'bold'))
     marks = {fits: paint(mark, style)
              for (fits, mark), style in zip(MARKS.items(), ('green', 'faint', 'red'))}
-    for resource, verdicts in matches:
-        print('%s  %s' % (' '.join(marks[verdict] for verdict in verdicts), resource.text))
+    for (_, text, _), verdicts in matches:
+        print('%s  %s' % (' '.join(marks[verdict] for verdict in verdicts), text))
 
 
 def _print_json(matches: Matches, report: Report) -> None:
@@ -248,8 +274,8 @@ def _print_json(matches: Matches, report: Report) -> None:
     print('{"requests": %s,' % json.dumps([request.as_json() for request in matches.requests]))
     print(' "resources": [', end='')
     separator = '\n  '
-    for resource, verdicts in matches:
-        entry = resource.as_json()
+    for (uri, text, number), verdicts in matches:
+        entry = GivenURI(uri, text, shown_name(matches.path), number).as_json()
         entry['requests'] = [request.text
                              for request, verdict in zip(matches.requests, verdicts) if verdict]
         print(separator + json.dumps(entry), end='')
