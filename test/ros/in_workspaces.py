@@ -5,18 +5,20 @@ It needs an environment without the packages: no setup.bash of theirs, nothing i
 """
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import signal
 import socket
 import subprocess
 from pathlib import Path
+from typing import Iterator
 
 import pytest
 from built import unless_built
 
 ROOT = Path(__file__).resolve().parents[2]
-USER = Path(__file__).resolve().parent / 'workspace' / 'src' / 'capability_user'
+CLIENT = Path(__file__).resolve().parent / 'workspace' / 'src' / 'contract_client'
 PYTHON = '-DPYTHON_EXECUTABLE=/usr/bin/python3'
 
 pytestmark = unless_built(
@@ -65,24 +67,41 @@ def check(space: Path, folder: Path) -> None:
         succeed(folder, *in_space(space, command))
 
 
-def use_from_cpp(space: Path, folder: Path) -> None:
-    """The demo runs, and the C++ client uses it."""
+@contextlib.contextmanager
+def launched(space: Path, folder: Path, launch: str) -> 'Iterator[str]':
+    """What roslaunch starts, with a master of its own, whose URI as a shell sets it is given."""
     with socket.socket() as probe:
         probe.bind(('127.0.0.1', 0))
         port = probe.getsockname()[1]
-    launch = subprocess.Popen(
-        in_space(space, 'exec roslaunch -p %d capabilities demo.launch' % port),
+    process = subprocess.Popen(
+        in_space(space, 'exec roslaunch -p %d %s' % (port, launch)),
         env=environment(folder), cwd=str(folder), stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
-        said = succeed(folder, *in_space(
-            space, 'ROS_MASTER_URI=http://127.0.0.1:%d timeout 300 rosrun capability_user '
-            'capability_user /capability_server demo_robot/Camera' % port))
-        assert 'quoted\n' in said
-        assert said.endswith('gone\n')
+        yield 'ROS_MASTER_URI=http://127.0.0.1:%d' % port
     finally:
-        launch.send_signal(signal.SIGINT)
-        launch.wait()
+        process.send_signal(signal.SIGINT)
+        process.wait()
+
+
+def use_from_cpp(space: Path, folder: Path) -> None:
+    """The contract of the server holds for a client in C++ that knows nothing else of it."""
+    packages = folder / 'packages'
+    shutil.copytree(str(CLIENT / 'fixtures'), str(packages))
+    for node in packages.glob('*/nodes/*'):
+        node.chmod(0o755)
+    with launched(space, folder, '%s packages:=%s' % (CLIENT / 'contract.launch', packages)) as at:
+        said = succeed(folder, *in_space(
+            space, '%s timeout 400 rosrun contract_client contract_client /capability_server %s'
+            % (at, packages)))
+        assert 'FAILED' not in said, said
+
+
+def run_demo(space: Path, folder: Path) -> None:
+    with launched(space, folder, 'capabilities demo.launch') as at:
+        command = at + ' rosrun capabilities capabilities '
+        succeed(folder, *in_space(space, 'for _ in {1..300}; do %sstatus && break; sleep 0.2; done '
+                                         '&& %sstart demo_robot/Camera' % (command, command)))
 
 
 @pytest.fixture
@@ -90,7 +109,7 @@ def workspace(tmp_path: Path) -> Path:
     """A workspace with the two packages and the C++ client."""
     (tmp_path / 'src').mkdir()
     (tmp_path / 'src' / 'rocon_uri').symlink_to(ROOT)
-    shutil.copytree(str(USER), str(tmp_path / 'src' / 'capability_user'))
+    shutil.copytree(str(CLIENT), str(tmp_path / 'src' / 'contract_client'))
     return tmp_path
 
 
@@ -99,7 +118,7 @@ def test_catkin_make(workspace: Path, with_symlink: bool) -> None:
     if with_symlink:
         (workspace / 'src' / 'capabilities').symlink_to('rocon_uri/capabilities')
         # so that it need not be told that it comes second
-        manifest = workspace / 'src' / 'capability_user' / 'package.xml'
+        manifest = workspace / 'src' / 'contract_client' / 'package.xml'
         manifest.write_text(manifest.read_text().replace(
             '<build_depend>rocon_uri<', '<build_depend>capabilities<'))
     succeed(workspace, 'catkin_make', PYTHON)
@@ -109,7 +128,7 @@ def test_catkin_make(workspace: Path, with_symlink: bool) -> None:
     use_from_cpp(workspace / 'devel', workspace)
     succeed(workspace, 'catkin_make', 'install')
     check(workspace / 'install', workspace)
-    use_from_cpp(workspace / 'install', workspace)
+    run_demo(workspace / 'install', workspace)
 
 
 def test_catkin_make_isolated(workspace: Path) -> None:
