@@ -11,6 +11,7 @@ from capabilities.discovery import package_index_from_package_path
 from sources import SOURCE
 
 from rocon_uri import Vocabulary, is_compatible, parse
+from rocon_uri.field_vocabulary import FieldVocabulary
 from rocon_uri.sources.packages import find_packages
 from rocon_uri.sources.yaml_data import YamlError
 from rocon_uri.vocabulary import read_rules, with_exported_rules
@@ -247,14 +248,31 @@ def test_a_vocabulary_stays_the_same_where_nothing_is_added(workspace):
     assert with_exported_rules(bundled) is bundled
 
 
+def test_the_rules_of_many_files_are_folded_in_at_once(tmp_path, monkeypatch):
+    files = [tmp_path / ('%d.yaml' % number) for number in range(50)]
+    for number, file in enumerate(files):
+        file.write_text('- hardware_platform: {robot: [bender_%d]}\n'
+                        '- hardware_platform: {bender_%d: [flexo_%d]}\n' % ((number,) * 3))
+    files[7].write_text('hardware_platform: {robot: [lost], mobile_device: [bender_6]}')
+    monkeypatch.setenv('ROCON_URI_RULES', os.pathsep.join(map(str, files)))
+    made = []
+    make = FieldVocabulary.__init__
+    monkeypatch.setattr(FieldVocabulary, '__init__',
+                        lambda self, *args: made.append(self) or make(self, *args))
+    vocabulary = exported()
+    assert len(made) <= 9       # three fields: empty, bundled, with all rules
+    field = vocabulary.field('hardware_platform')
+    assert field.leaves('bender_49') == ['flexo_49'] and 'bender_6' in field
+    assert 'lost' not in field and 'bender_7' not in field      # a faulty file adds nothing
+
+
 # When they are looked up, in a process of its own
 
 WATCHED = '''
 import sys
 reads = []
 sys.addaudithook(lambda event, arguments: reads.append(event)
-                 if event == 'open' and arguments[1] and str(arguments[0]).endswith('robots.yaml')
-                 else None)
+                 if event == 'open' and str(arguments[0]).endswith('robots.yaml') else None)
 import rocon_uri
 from rocon_uri import RoconURIValueError, Vocabulary, explain, is_compatible, parse, relation
 def refused(text):

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from typing import Dict, Iterator, List, Mapping, Optional, Tuple
     Member = Tuple[object, object, Tuple[object, ...]]      # name, rules below it, path
 
-__all__ = ['FieldVocabulary', 'RulesError', 'members']
+__all__ = ['FieldVocabulary', 'RulesError', 'add_rules', 'members']
 
 
 class RulesError(ValueError):
@@ -64,19 +64,20 @@ class FieldVocabulary:
     :param parents: mapping from each value and group, in order, to its group, or to None
     """
 
-    __slots__ = ('name', '_parents', '_children', '_bits')
+    __slots__ = ('name', 'parents', '_children', '_bits')
 
     def __init__(self, name: str, parents: Mapping[str, Optional[str]]) -> None:
         self.name = name
-        self._parents = dict(parents)
+        #: the group of each value and group, or None
+        self.parents = dict(parents)
         self._children: Dict[Optional[str], List[str]] = {None: []}
-        for value, parent in self._parents.items():
+        for value, parent in self.parents.items():
             self._children.setdefault(parent, []).append(value)
-        leaves = (value for value in self._parents if value not in self._children)
+        leaves = (value for value in self.parents if value not in self._children)
         self._bits = {value: bit for bit, value in enumerate(leaves)}
 
     def __contains__(self, value: object) -> bool:
-        return value in self._parents
+        return value in self.parents
 
     def __iter__(self) -> Iterator[str]:
         """All values and groups, a group before its members."""
@@ -112,7 +113,7 @@ class FieldVocabulary:
         """
         if value in self._bits:
             return [value]
-        self._parents[value]
+        self.parents[value]
         return [below for below in self._below(value) if below in self._bits]
 
     def mask(self, value: str) -> int:
@@ -153,21 +154,36 @@ class FieldVocabulary:
         :returns: FieldVocabulary
         :raises RulesError: for a name that is not a ROS base name, or is in two groups
         """
-        parents = dict(self._parents)
-        # Depth first, in the order of the rules: the group of a group is known before its members.
-        waiting: List[Tuple[Optional[str], Member]] = [
-            (None, entry) for entry in members(rules, path)]
-        waiting.reverse()
-        while waiting:
-            parent, (given, below, place) = waiting.pop()
-            name = _checked_name(self.name, given, place)
-            known = parents.setdefault(name, parent)
-            if parent is not None and known != parent:
-                raise RulesError("%s '%s' cannot be in '%s', since it is already %s" % (
-                    self.name, name, parent,
-                    "in '%s'" % known if known else 'at the top, in no group'), place)
-            waiting += [(name, entry) for entry in members(below, place)][::-1]
-        return FieldVocabulary(self.name, parents)
+        added: Dict[str, Optional[str]] = {}
+        add_rules(self.name, self.parents, added, rules, path)
+        return self.with_added(added)
+
+    def with_added(self, added: Mapping[str, Optional[str]]) -> 'FieldVocabulary':
+        """This vocabulary with what `add_rules` has added."""
+        return FieldVocabulary(self.name, {**self.parents, **added}) if added else self
+
+
+def add_rules(field: str, known: Mapping[str, Optional[str]], added: Dict[str, Optional[str]],
+              rules: object, path: Tuple[object, ...]) -> None:
+    """
+    Add the values and groups of rules that are not known. Its errors are those of `extended`.
+
+    :param str field: whose they are
+    :param known: mapping from each value and group that is known to its group, or to None
+    :param added: dict of the same form, which gets the others
+    """
+    # Depth first, in the order of the rules: the group of a group is known before its members.
+    waiting: List[Tuple[Optional[str], Member]] = [(None, entry) for entry in members(rules, path)]
+    waiting.reverse()
+    while waiting:
+        parent, (given, below, place) = waiting.pop()
+        name = _checked_name(field, given, place)
+        group = known[name] if name in known else added.setdefault(name, parent)
+        if parent is not None and group != parent:
+            raise RulesError("%s '%s' cannot be in '%s', since it is already %s" % (
+                field, name, parent,
+                "in '%s'" % group if group else 'at the top, in no group'), place)
+        waiting += [(name, entry) for entry in members(below, place)][::-1]
 
 
 def _checked_name(field: str, name: object, path: Tuple[object, ...]) -> str:

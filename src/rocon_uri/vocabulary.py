@@ -12,7 +12,7 @@ import os
 from _thread import RLock       # as functools does: threading takes longer than parsing
 
 from rocon_uri.sources.wording import quoted
-from rocon_uri.field_vocabulary import FieldVocabulary, RulesError, members
+from rocon_uri.field_vocabulary import FieldVocabulary, RulesError, add_rules, members
 from rocon_uri.grammar import VOCABULARY_FIELDS
 
 TYPE_CHECKING = False
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
     from rocon_uri.sources.located import Fault
     from rocon_uri.sources.packages import Package
+
+    Parents = Dict[str, Optional[str]]      # of values and groups, by name
 
 __all__ = ['RULES_FOLDER', 'Vocabulary', 'complete', 'completed', 'current', 'precedence',
            'read_rules', 'vocabulary_of_packages', 'with_exported_rules']
@@ -136,13 +138,19 @@ class Vocabulary:
 
 def _extended(fields: Mapping[str, FieldVocabulary],
               rules: object) -> Dict[str, FieldVocabulary]:
-    extended = dict(fields)
+    added = _added({name: field.parents for name, field in fields.items()}, rules)
+    return {name: field.with_added(added[name]) for name, field in fields.items()}
+
+
+def _added(known: Mapping[str, Parents], rules: object) -> Dict[str, Parents]:
+    """What rules add, by field, to what is known; RulesError if they do not fit."""
+    added: Dict[str, Parents] = {name: {} for name in VOCABULARY_FIELDS}
     for name, below, path in members(rules):
         if not isinstance(name, str) or name not in VOCABULARY_FIELDS:
             raise RulesError('%s is not a field with registered values; these are: %s'
                              % (quoted(str(name)), ', '.join(VOCABULARY_FIELDS)), path)
-        extended[name] = extended[name].extended(below, path)
-    return extended
+        add_rules(name, known[name], added[name], below, path)
+    return added
 
 
 def read_rules(vocabulary: Vocabulary, path: str) -> Vocabulary:
@@ -200,25 +208,34 @@ def with_exported_rules(vocabulary: Vocabulary) -> Vocabulary:
 
 def _with_rules_files(vocabulary: Vocabulary, paths: Iterable[str],
                       ) -> Tuple[Vocabulary, List[Fault]]:
-    """One new vocabulary for all files without a fault, and the faults of the others."""
+    """
+    One new vocabulary for all files without a fault, and the faults of the others.
+
+    All are folded in at once: to make a vocabulary for each file would take long for thousands.
+    """
     from rocon_uri.exported_rules import read_rules_file
     from rocon_uri.sources.located import with_id
     from rocon_uri.sources.yaml_data import YamlError, place_below
     fields = vocabulary._fields
+    parents = {name: dict(field.parents) for name, field in fields.items()}
     faults: List[Fault] = []
     for path in paths:
         try:
             rules = read_rules_file(path)
             try:
-                fields = _extended(fields, rules)
+                added = _added(parents, rules)
             except RulesError as error:
                 raise with_id(YamlError(error.problem, path, *place_below(rules, error.path)),
                               'invalid-rules') from None
         except (OSError, YamlError) as error:
             faults.append(error)
-    if all(fields[name] is field for name, field in vocabulary._fields.items()):
-        return vocabulary, faults
-    return Vocabulary._of(fields, vocabulary.is_open), faults
+        else:
+            for name, new in added.items():
+                parents[name].update(new)
+    if all(len(parents[name]) == len(field.parents) for name, field in fields.items()):
+        return vocabulary, faults       # nothing was added
+    return Vocabulary._of({name: FieldVocabulary(name, parents[name]) for name in fields},
+                          vocabulary.is_open), faults
 
 
 _initial: Optional[Vocabulary] = None       # what is bundled; current until something needs more
