@@ -45,11 +45,22 @@ For whole files of a package, a file ``.rocon_uri.yaml`` beside its package.xml 
 '''
 
 
+REMARKS = {'Launch files': '''\
+A launch file that starts an app manager tells it what the robot is. A manager that was never
+configured calls itself ``robot``, which is a group: every app of a robot is compatible with it, for
+``rocon:/turtlebot`` and ``rocon:/robot/x`` have turtlebots in common. That is right by the
+specification, and probably not what was meant; the linter cannot see it, since the name may come
+from an argument.
+'''}
+
+
 def page() -> str:
     """The text of the page."""
     parts = [HEAD]
     for section, explanations in groupby(EXPLANATIONS.values(), lambda each: each.section):
         parts.append('%s\n%s\n' % (section, '-' * len(section)))
+        if section in REMARKS:
+            parts.append(fill(' '.join(REMARKS[section].split()), 100) + '\n')
         parts += map(entry, explanations)
     return '\n'.join(parts)
 

@@ -12,13 +12,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rocon_uri.sources.yaml_data import YamlError
 from rocon_uri.sources.yaml_source import load
-from sources import ROOT
+from sources import SOURCE
 from specs.examples import BAD, BEYOND_SCHEMAS, GOOD, ODD
 from test_specs_properties import FULL, LOADERS, mutants
 
 jsonschema = pytest.importorskip('jsonschema')
 
-SCHEMAS = ROOT / 'schemas'
+SCHEMAS = SOURCE / 'rocon_uri' / 'schemas'
 FILES = {'interface': 'capability_interface.json', 'provider': 'capability_provider.json',
          'semantic_interface': 'semantic_capability_interface.json'}
 VALIDATORS = {kind: jsonschema.Draft7Validator(json.loads((SCHEMAS / name).read_text()))
