@@ -162,6 +162,15 @@ def test_a_resource_is_found_anywhere_in_its_package_and_only_once(tmp_path: Pat
         assert resources.find(name)[2:] == (MISSING, 'is not of the form package/file')
 
 
+def test_near_misses_are_not_looked_for_without_end(tmp_path: Path) -> None:
+    make_package(tmp_path, 'ours', **{'dance%d_launch' % number: '' for number in range(100)})
+    resources = Resources(find_packages([str(tmp_path)]))
+    problems = [str(resources.find('ours/dance_%d.launch' % number).problem)
+                for number in range(300)]
+    assert "(did you mean 'ours/dance0.launch'" in problems[0]
+    assert 'did you mean' not in problems[-1]
+
+
 def test_an_executable_is_built_or_installed_or_can_be_executed(
         tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     make_package(tmp_path / 'share', 'ours', scripts__walk_py='')

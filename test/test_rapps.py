@@ -424,6 +424,14 @@ def test_without_one_package_of_the_corpus_the_rest_is_still_judged():
     assert runnable(rapps['kobuki_rapps/auto_docking'], ROBOT, index, ignore=elsewhere)
 
 
+def test_a_verdict_has_the_providers_that_can_be_had_beside_its_reasons():
+    index = spec_index('x A', 'y B, depends_on: caps/C')
+    rapp = rapp_from_string('required_capabilities: [{name: caps/A}, {name: caps/B}]', 'ours/dance')
+    verdict = runnable(rapp, ROBOT, index)
+    assert [reason.id for reason in verdict.reasons] == ['virtual', 'no-provider']
+    assert verdict.providers == ('caps/x', 'caps/y')
+
+
 # Names of files that are no paths
 
 @pytest.mark.parametrize('launch, what, meant', [

@@ -14,7 +14,8 @@ from __future__ import annotations
 import os
 import re
 import stat
-from typing import Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple
+from functools import lru_cache
+from typing import Callable, Collection, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple
 
 from rocon_uri.sources.packages import (
     MANIFEST, Package, PackageError, package_from_manifest)
@@ -28,6 +29,7 @@ MISSING = 'missing'
 AMBIGUOUS = 'ambiguous'
 
 _MAX_NAMES = 200    # of files with one extension; among more no near miss is looked for
+_MAX_COMPARED = 20000   # names that are compared with misspelt ones; that takes half a second
 
 
 class Resource(NamedTuple):
@@ -58,6 +60,7 @@ class Resources:
     def __init__(self, packages: Mapping[str, Package]) -> None:
         self._packages = packages
         self._files: Dict[str, Dict[str, List[str]]] = {}
+        self._compared = 0
 
     def find(self, name: str, extension: str = '') -> Resource:
         """
@@ -88,8 +91,9 @@ class Resources:
             return Resource(name, None, MISSING, 'is not of the form package/file')
         package = self._packages.get(package_name)
         if package is None:
+            meant = did_you_mean(self._near_misses(package_name, self._packages))
             return Resource(name, None, MISSING, 'does not exist: there is no package %s%s' % (
-                quoted(package_name), did_you_mean(near_misses(package_name, self._packages))))
+                quoted(package_name), meant))
         paths = files(package, file + extension)
         if len(paths) == 1:
             return Resource(name, paths[0])
@@ -115,18 +119,20 @@ class Resources:
         stem, own_extension = os.path.splitext(file + extension)
         stems = {os.path.splitext(other)[0] for other in self._files_of(package.folder)
                  if other.endswith(own_extension)}
-        near = near_misses(stem, stems) if len(stems) <= _MAX_NAMES else []
+        near = self._near_misses(stem, stems) if len(stems) <= _MAX_NAMES else []
         return ['%s/%s%s' % (package.name, other, '' if extension else own_extension)
                 for other in near]
 
+    def _near_misses(self, text: str, names: Collection[str]) -> List[str]:
+        """The names that are like a text; none after many comparisons, which take long."""
+        self._compared += len(names)
+        return near_misses(text, names) if self._compared <= _MAX_COMPARED else []
+
     def _files_of(self, folder: str) -> Dict[str, List[str]]:
         """The paths below the folder of a package by the name of the file."""
-        files = self._files.get(folder)
-        if files is None:
-            files = self._files[folder] = {}
-            for path in _files_below(folder):
-                files.setdefault(os.path.basename(path), []).append(path)
-        return files
+        if folder not in self._files:
+            self._files[folder] = _files_by_name.__wrapped__(folder)
+        return self._files[folder]
 
 
 class NotAPath(NamedTuple):
@@ -166,10 +172,7 @@ paths=('radio.launch',))
     """
     if package_folder is None:
         return None
-    try:
-        own_name = package_from_manifest(os.path.join(package_folder, MANIFEST)).name
-    except PackageError:
-        own_name = os.path.basename(package_folder)
+    own_name = _package_name(package_folder)
     for match, what in _OTHER_NAMES:
         found = match(name)
         if found is None:
@@ -187,7 +190,26 @@ def _named(file: str, package_folder: str) -> List[str]:
     """The files of a package that a path in it, or a name alone, stands for."""
     path = os.path.join(package_folder, file)
     return [path] if os.path.isfile(path) else [
-        path for path in _files_below(package_folder) if os.path.basename(path) == file]
+        path for path in _files_by_name(package_folder).get(file, []) if os.path.isfile(path)]
+
+
+# What these remember may be out of date in a server: then a suggestion is missing.
+
+@lru_cache(maxsize=16)
+def _package_name(package_folder: str) -> str:
+    try:
+        return package_from_manifest(os.path.join(package_folder, MANIFEST)).name
+    except PackageError:
+        return os.path.basename(package_folder)
+
+
+@lru_cache(maxsize=16)
+def _files_by_name(folder: str) -> Dict[str, List[str]]:
+    """The paths below a folder by the name of the file."""
+    files: Dict[str, List[str]] = {}
+    for path in _files_below(folder):
+        files.setdefault(os.path.basename(path), []).append(path)
+    return files
 
 
 def _files_below(folder: str) -> Iterator[str]:
