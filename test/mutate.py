@@ -36,6 +36,7 @@ TESTS = {
     'regular/syntax': ['name_pattern', 'conformance', 'regular_language'],
     'regular/tree': ['name_pattern', 'compatibility', 'regular_language'],
     'regular/sorted_walk': ['regular_sorted_walk', 'resource_index'],
+    'apps/runnable': ['app_files', 'reasons', 'rapps'],
 }
 
 CONFIG = '''\

@@ -13,15 +13,15 @@ import pytest
 from fuzz import batch
 from fuzz.batch import run_batch
 
-INPUTS = {'uri': 400, 'name_pattern': 400, 'spec_file': 200, 'rapp_file': 60, 'package_exports': 80,
-          'message': 200}
+INPUTS = {'uri': 400, 'name_pattern': 400, 'spec_file': 200, 'rapp_file': 60, 'app_file': 60,
+          'package_exports': 80, 'message': 200}
 
 
 @pytest.mark.parametrize('name', batch.TARGETS)
 def test_damaged_input_is_answered_as_documented(name):
     if name == 'message':
         pytest.importorskip('genpy', reason='messages need ROS')
-    if name in ('rapp_file', 'package_exports'):
+    if name in ('rapp_file', 'app_file', 'package_exports'):
         pytest.importorskip('catkin_pkg')
     tried, fault = run_batch(import_module('fuzz.' + name), 1, INPUTS[name])
     assert not fault, fault

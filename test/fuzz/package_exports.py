@@ -51,7 +51,8 @@ def make(rng):
 def check(given):
     good_folder, manifest = given
     with tempfile.TemporaryDirectory() as workspace:
-        make_package(Path(workspace), 'a_package', UNTOUCHED, dance_rapp='display: Dance',
+        make_package(Path(workspace), 'a_package', UNTOUCHED,
+                     dance_rapp='{display: Dance, description: It dances}',
                      Camera_yaml='{name: Camera, spec_type: interface, spec_version: 1}',
                      robots_yaml='hardware_platform: [untouched]')
         manifest_path = Path(workspace, 'a_package', 'package.xml')
@@ -82,7 +83,7 @@ def check_workspace(workspace):
                            InterfaceNameNotFoundException))):
         assert all(isinstance(fault, kinds) for fault in found), found
         assert all(isinstance(fault, OSError) or str(fault).isprintable() for fault in found)
-    findings = check_package_index(find_packages([workspace]), {}, faults)
+    findings = check_package_index(find_packages([workspace]), {}, faults).findings
     check_findings(findings, workspace)
     assert not any('a_package' in finding.file_name for finding in findings)
     assert len(faults) == 2 - len(index)

@@ -74,9 +74,9 @@ def check(texts):
         for name, text in texts.items():
             (package / name).write_bytes(text.encode('utf-8', 'surrogatepass'))
         index = package_index_from_package_path(folder)
-        findings = check_package_index(find_packages([folder]), LINT_OTHERS)
+        findings = check_package_index(find_packages([folder]), LINT_OTHERS).findings
         check_findings(findings, folder)
-        assert check_package_index(find_packages([folder]), LINT_OTHERS) == findings
+        assert check_package_index(find_packages([folder]), LINT_OTHERS).findings == findings
         rapps, errors = rapps_from_package_index(index)
         assert len(rapps) + len(errors) == len(exports)
         found = {(Path(finding.file_name).name, finding.line, finding.column)
