@@ -2,14 +2,18 @@
 from __future__ import annotations
 
 import os
+import socket
 import subprocess
 import sys
+import threading
+from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from rocon_uri import platform
+from rocon_uri.cli import main
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.platform import default_robot_name, generate_platform_rocon_uri
 from rocon_uri.uri import parse
@@ -119,13 +123,26 @@ def test_the_system_is_the_nearest_registered_one_to_what_os_detect_says(
     ("ID='ubuntu'\nVERSION_CODENAME=zany\n", 'ubuntu'),
     ('ID=zorin\nID_LIKE="ubuntu debian"\n', 'ubuntu'),
     ('ID="opensuse-leap"\nID_LIKE="suse opensuse"\n', 'opensuse'),
+    ('ID=elementary\nID_LIKE=ubuntu\nVERSION_CODENAME=odin\nUBUNTU_CODENAME=focal\n', 'focal'),
+    ('ID=elementary\nID_LIKE=ubuntu\nUBUNTU_CODENAME=focal\n', 'focal'),
+    ('ID=mx\nID_LIKE=debian\nDEBIAN_CODENAME=bookworm\n', 'bookworm'),
+    ('ID=linuxmint\nID_LIKE="ubuntu debian"\nVERSION_CODENAME=una\nUBUNTU_CODENAME=focal\n', 'una'),
+    ('ID=ubuntu\nVERSION_CODENAME=zany\nDEBIAN_CODENAME=trixie\n', 'trixie'),
+    ('ID=neon\nID_LIKE="zorin debian"\n', 'debian'),
     ('# nothing of use\n\nID\n', 'linux'),
     ('', 'linux'),
     (None, 'linux'),
 ])
 @pytest.mark.skipif(not sys.platform.startswith('linux'), reason='for Linux')
-def test_without_rospkg_the_system_says_itself_what_it_is(
-        os_release, system, without_rospkg, tmp_path, monkeypatch):
+@pytest.mark.parametrize('with_rospkg', [False, True])
+def test_the_system_says_itself_what_it_is(
+        with_rospkg, os_release, system, tmp_path, monkeypatch):
+    if with_rospkg:     # it knows no derivative, as of elementary OS
+        os_detect = pytest.importorskip('rospkg.os_detect')
+        monkeypatch.delenv('ROS_OS_OVERRIDE', raising=False)
+        monkeypatch.setattr(os_detect.OsDetect, 'detect_os', lambda self: ('pop', '8', 'odin'))
+    else:
+        monkeypatch.setitem(sys.modules, 'rospkg', None)
     path = tmp_path / 'os-release'
     if os_release is not None:
         path.write_text(os_release)
@@ -146,3 +163,67 @@ def test_a_robot_that_nobody_named_bears_the_name_of_its_host():
     node = os.uname().nodename
     assert default_robot_name() == node.split('.')[0]
     assert parse(generate_platform_rocon_uri('pc', default_robot_name())).name.string
+
+
+# The master
+
+@pytest.fixture
+def master_says():
+    """Start something that answers as the master does to getParam; where it is."""
+    servers = []
+
+    def start(answer):
+        server = SimpleXMLRPCServer(('127.0.0.1', 0), logRequests=False)
+        server.register_function(lambda caller, name: answer, 'getParam')
+        thread = threading.Thread(target=server.serve_forever, args=(0.01,))
+        thread.start()
+        servers.append((server, thread))
+        return 'http://127.0.0.1:%d' % server.server_address[1]
+    yield start
+    for server, thread in servers:
+        server.shutdown()
+        thread.join()
+        server.server_close()
+
+
+def note(capsys):
+    assert main(['platform']) == 0
+    return capsys.readouterr().err
+
+
+@pytest.mark.parametrize('ours, theirs, says', [
+    ('noetic', 'melodic\n', "'noetic' is taken, since ROS_DISTRO is 'noetic'; /rosdistro of the "
+     "master is 'melodic'"),
+    ('Debian', 'noetic', "'ros_other' is taken, since ROS_DISTRO is 'Debian'; /rosdistro of the "
+     "master is 'noetic'"),
+    ('', 'noetic', "'ros_other' is taken, since ROS_DISTRO is not set; /rosdistro of the master is "
+     "'noetic'"),
+])
+def test_another_distribution_of_the_master_is_mentioned(
+        ours, theirs, says, master_says, monkeypatch, capsys):
+    monkeypatch.setattr('rocon_uri.cli.platform._PATIENCE', 30)
+    monkeypatch.setenv('ROS_DISTRO', ours)
+    monkeypatch.setenv('ROS_MASTER_URI', master_says([1, '', theirs]))
+    assert note(capsys) == 'rocon_uri: note: %s\n' % says
+
+
+@pytest.mark.parametrize('answer', [[1, '', 'noetic\n'], [1, '', 'debian'], [-1, 'not set', 0],
+                                    [], 7, {'a': 1}])
+def test_what_the_master_says_is_not_mentioned_where_it_does_not_matter(
+        answer, master_says, monkeypatch, capsys):
+    monkeypatch.setattr('rocon_uri.cli.platform._PATIENCE', 30)
+    monkeypatch.setenv('ROS_DISTRO', 'noetic')
+    monkeypatch.setenv('ROS_MASTER_URI', master_says(answer))
+    assert note(capsys) == ''
+
+
+def test_a_master_that_does_not_answer_is_none(monkeypatch, capsys):
+    monkeypatch.setenv('ROS_DISTRO', 'noetic')
+    with socket.socket() as silent:     # it accepts connections, and nobody looks at them
+        silent.bind(('127.0.0.1', 0))
+        silent.listen(1)
+        monkeypatch.setenv('ROS_MASTER_URI', 'http://127.0.0.1:%d' % silent.getsockname()[1])
+        assert note(capsys) == ''
+    for uri in ('http://127.0.0.1:9', 'zork', 'file:///tmp', 'http://'):
+        monkeypatch.setenv('ROS_MASTER_URI', uri)
+        assert note(capsys) == ''

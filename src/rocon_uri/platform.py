@@ -16,7 +16,7 @@ from rocon_uri.vocabulary import complete, current
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Dict, Iterable, List, Optional
+    from typing import Dict, Iterable, List, Optional, Tuple
 
 __all__ = ['default_robot_name', 'default_robot_type', 'generate_platform_rocon_uri']
 
@@ -24,6 +24,7 @@ __all__ = ['default_robot_name', 'default_robot_type', 'generate_platform_rocon_
 default_robot_type = 'pc'
 
 _OS_RELEASE_FILES = ('/etc/os-release', '/usr/lib/os-release')
+_CODENAMES = ('VERSION_CODENAME', 'UBUNTU_CODENAME', 'DEBIAN_CODENAME')     # in os-release(5)
 
 
 def generate_platform_rocon_uri(robot_type: str, robot_name: str) -> str:
@@ -32,8 +33,8 @@ def generate_platform_rocon_uri(robot_type: str, robot_name: str) -> str:
 
     The type and the name are made legal. The type need not be registered: parsing the text reports
     that. The application framework is ``ROS_DISTRO`` if that is registered, else ``ros_other``.
-    The operating system is the first registered value of those that rospkg's ``os_detect``, or
-    the system itself, names: the release, the distribution, or ``linux``.
+    The operating system is the first registered one of the release, the distribution and those
+    that it is like, as rospkg's ``os_detect`` and os-release(5) name them, or ``linux``.
 
     :param str robot_type: the hardware platform, as ``'turtlebot2'``
     :param str robot_name: the name of this robot
@@ -86,23 +87,32 @@ def _first_registered(field: str, names: Iterable[str]) -> Optional[str]:
 
 
 def _system_names() -> List[str]:
-    """The names that this system may have in the vocabulary, the most exact one first."""
+    """
+    The names that this system may have in the vocabulary, the most exact one first.
+
+    The order is the same with and without rospkg, which knows fewer derivatives.
+    """
+    import platform     # as in default_robot_name
+    name, codename = _detected_by_rospkg()
+    system, release = platform.system(), platform.release()
+    if name and os.environ.get('ROS_OS_OVERRIDE'):      # then this system does not matter
+        return [codename, name + codename, name]
+    if system != 'Linux':
+        return [codename, name + codename, name, system + release,
+                {'Darwin': 'osx'}.get(system, system)]
+    facts = _os_release()
+    return [codename, *(facts.get(key, '') for key in _CODENAMES), name + codename, name,
+            facts.get('ID', ''), *facts.get('ID_LIKE', '').split()]
+
+
+def _detected_by_rospkg() -> Tuple[str, str]:
+    """The name of the system and of its release, '' for what cannot be detected."""
     try:
         import rospkg.os_detect     # slow to import, and missing without ROS
         name, _, codename = rospkg.os_detect.OsDetect().detect_os()
-        return [codename, name + codename, name]
+        return name, codename
     except Exception:       # a robot has a URI even if a detector fails
-        return _system_names_without_rospkg()
-
-
-def _system_names_without_rospkg() -> List[str]:
-    import platform     # as in default_robot_name
-    system, release = platform.system(), platform.release()
-    if system != 'Linux':
-        return [system + release, {'Darwin': 'osx'}.get(system, system)]
-    facts = _os_release()
-    return [facts.get('VERSION_CODENAME', ''), facts.get('ID', ''),
-            *facts.get('ID_LIKE', '').split()]
+        return '', ''
 
 
 def _os_release() -> Dict[str, str]:
