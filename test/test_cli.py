@@ -1,6 +1,8 @@
 """The command as users start it: statuses, streams, terminals, what it loads."""
 from __future__ import annotations
 
+import contextlib
+import io
 import json
 import os
 import re
@@ -366,3 +368,28 @@ def test_without_argcomplete_a_shell_that_asks_gets_no_traceback(tmp_path):
 def test_json_is_one_ascii_document_on_any_terminal():
     done = run('parse', '--json', 'rocon:/\u00e4\udcff', 'rocon:/pr2', PYTHONIOENCODING='ascii')
     assert json.loads(done.stdout)['errors'][0]['value'] == '\u00e4\udcff'
+
+
+@pytest.mark.parametrize('arguments', [
+    ['parse', 'rocon:/pr2'], ['check', 'rocon:/pr2', 'rocon:/robot'],
+    ['match', 'rocon:/kobuki', '--in', FLEET], ['fields'], ['rules'], ['platform'],
+    ['apps', '--package-path', str(ROOT / 'examples'), '--robot', 'rocon:/cafe_cart'],
+    ['specs', 'list', '--package-path', str(ROOT / 'examples')],
+    ['specs', 'check', str(ROOT / 'examples')],
+    ['specs', 'graph', '--package-path', str(ROOT / 'examples')],
+])
+def test_the_streams_may_be_those_of_a_program_that_calls_it(arguments):
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        assert main(arguments) in (0, 1)
+    assert out.getvalue() or 'no errors' in err.getvalue()
+
+
+class Broken(io.StringIO):
+    def write(self, text):
+        raise BrokenPipeError
+
+
+def test_a_stream_of_a_program_that_calls_it_may_be_closed_at_the_other_end():
+    with contextlib.redirect_stdout(Broken()):
+        assert main(['fields']) == 0

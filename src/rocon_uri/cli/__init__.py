@@ -100,8 +100,9 @@ def _prepare_streams() -> None:
 def _discard_output() -> None:
     """Leave nothing for the interpreter to write when it ends, which it would complain about."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
-    for stream in (sys.stdout, sys.stderr):
-        os.dup2(nowhere, stream.fileno())
+    for stream, own in (sys.stdout, sys.__stdout__), (sys.stderr, sys.__stderr__):
+        if own is not None and stream is own:       # another one is the caller's
+            os.dup2(nowhere, own.fileno())
 
 
 def _without_remappings(argv: Iterable[str]) -> List[str]:

@@ -1,6 +1,7 @@
 """The packages that a verb looks at, what they export, and a report of what is wrong with them."""
 from __future__ import annotations
 
+import io
 import os
 import shlex
 import sys
@@ -162,4 +163,5 @@ def quiet_loggers() -> None:
 
 def escape_unencodable() -> None:
     """Print what the terminal's encoding does not have as escapes, instead of failing."""
-    sys.stdout.reconfigure(errors='backslashreplace')   # type: ignore[union-attr]
+    if isinstance(sys.stdout, io.TextIOWrapper):    # another stream is the caller's
+        sys.stdout.reconfigure(errors='backslashreplace')
