@@ -71,8 +71,12 @@ class Dialect:
         """The resources joined with a table of kinds and names."""
         raise NotImplementedError
 
-    def names(self, pattern: NamePattern, kinds: str) -> Condition:
-        """A literal name matches, as far as a database compares it, and so does the kind."""
+    def names(self, pattern: NamePattern, kinds: str, by_kind: bool) -> Condition:
+        """
+        A literal name matches, as far as a database compares it, and so does the kind.
+
+        If ``by_kind``, a prefix is looked up for each of the kinds, which are few.
+        """
         raise NotImplementedError
 
     def numbers(self, cursor: DBAPICursor, count: int) -> Tuple[float, List[int]]:
@@ -95,13 +99,15 @@ class Dialect:
         raise NotImplementedError
 
 
-def ranges(pattern: NamePattern, name: str = 'name', backwards: str = 'reversed') -> Condition:
+def ranges(pattern: NamePattern, name: str = 'name', backwards: str = 'reversed',
+           comparison: str = '') -> Condition:
     """
     What a pattern says of how a literal name starts and ends.
 
     :param NamePattern pattern: any but ``*``
     :param str name: the column of names
     :param str backwards: that of names read backwards
+    :param str comparison: what stands on both sides of ``<`` and ``>=`` for names
     :returns: Condition, '' for nothing
 
     >>> from rocon_uri import name_pattern
@@ -113,9 +119,10 @@ parameters={'name': 'bob_', 'after_name': 'bob`'})
         return Condition('%s = %%(name)s' % name, {'name': pattern.literal})
     texts: List[str] = []
     parameters: Dict[str, object] = {}
-    for column, key, start in ((name, 'name', pattern.prefix),
-                               (backwards, 'reversed', pattern.suffix[::-1])):
+    for column, key, start, around in ((name, 'name', pattern.prefix, comparison),
+                                       (backwards, 'reversed', pattern.suffix[::-1], '')):
         if start:
-            texts.append('{0} >= %({1})s AND {0} < %(after_{1})s'.format(column, key))
+            texts.append('{0} {2}>={2} %({1})s AND {0} {2}<{2} %(after_{1})s'.format(
+                column, key, around))
             parameters.update({key: start, 'after_' + key: after_names(start)})
     return Condition(' AND '.join(texts), parameters)

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 __all__ = ['Question', 'question']
 
 
+_FEW_KINDS = 300     # each of which is looked up, in 3 us
+
+
 class Question(NamedTuple):
     """The resources that match a request, in parts that have none in common."""
 
@@ -62,7 +65,8 @@ def question(request: RoconURI, known: Known, dialect: Dialect, name: NameReques
     live = '(resource.expires IS NULL OR resource.expires > %s)' % dialect.now
     if name.pattern.is_any:
         return Question([_where(kinds.text, live)], kinds.parameters)
-    names = dialect.names(name.pattern, kinds.text)
+    names = dialect.names(name.pattern, kinds.text,
+                          fitting is not None and len(fitting) <= _FEW_KINDS)
     meeting, unknown = _pairs(known, known.kinds if fitting is None else set(fitting), name)
     parts = [_where('resource.is_pattern = 0', names.text, live)]
     parameters = {**kinds.parameters, **names.parameters}

@@ -52,13 +52,13 @@ class SQLite(Dialect):
             "ON resource.kind = json_extract(pair.value, '$[0]') "
             "AND resource.name = json_extract(pair.value, '$[1]')", {'pairs': json.dumps(pairs)})
 
-    def names(self, pattern: NamePattern, kinds: str) -> Condition:
+    def names(self, pattern: NamePattern, kinds: str, by_kind: bool) -> Condition:
         # A plus keeps a column from being looked up: of the two ends of a name the longer one is,
         # and names that end alike are not in the order of their kinds.
         from_end = len(pattern.suffix) > len(pattern.prefix)
         text, parameters = ranges(pattern, '+name' if from_end else 'name',
                                   'reversed' if from_end else '+reversed')
-        conditions = [text, '+' + kinds if from_end and kinds else kinds]
+        conditions = [text, '+' + kinds if kinds and (from_end or not by_kind) else kinds]
         if is_left_to_database(pattern):
             conditions.append('name GLOB %(pattern)s' if isinstance(pattern, Glob)
                               else 'rocon_uri_matches(%(pattern)s, name)')
