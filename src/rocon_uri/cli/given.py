@@ -15,7 +15,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Dict, Iterable, Iterator, List, Optional, Sequence, Set, Tuple
     from rocon_uri.uri import RoconURI
-    Line = Tuple[RoconURI, str, int]    # the URI, its text, the line from 1
+    Line = Tuple[RoconURI, str, Optional[int]]      # the URI, its text, the line from 1
 
 __all__ = ['GivenURI', 'Report', 'not_utf8', 'say', 'shown_name']
 

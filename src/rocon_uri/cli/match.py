@@ -5,6 +5,8 @@ Examples:
   rocon_uri match 'rocon:/robot/*/ros' --in fleet.txt
   rocon_uri match --matrix --requests-in apps.txt --in fleet.txt
   rocon_uri match --why 'rocon:/robot/*/ros' rocon:/pr2/bob/noetic
+  rocon_uri match --in fleet.txt --into sqlite:///fleet.db
+  rocon_uri match 'rocon:/robot/*/ros' --in sqlite:///fleet.db
 
 A FILE has one URI a line; blank lines and lines whose first character is # are
 skipped. Bad lines are reported with their number, and skipped; a fault that many
@@ -14,10 +16,16 @@ requests, the app or the text of the request comes first. With --matrix prints e
 resource, after a column for each request: x if it fits, . if it does not, ? for
 name patterns that are too complex to compare. If nothing is found, stderr names
 the nearest resource and the fields that exclude it. With --why, says what check
-says about REQUEST and one URI.
+says about REQUEST and one URI. With --into, stores the URIs of FILE in a database
+and prints nothing.
 
-Exit status: 0 if anything was found, 1 if nothing was, 2 if a request, a line or a
-file was bad or two name patterns were too complex to compare.
+URL is a database, sqlite:///PATH or postgresql://USER@HOST/NAME. Others on this
+machine can see a password in an argument; PostgreSQL reads ~/.pgpass as well.
+
+Exit status: 0 if anything was found, 1 if nothing was, 2 if a request, a line, a
+file or a database was bad or two name patterns were too complex to compare. With
+--into, 0 if all was stored, 2 if a line was bad (the others are stored) or the
+database was.
 JSON: {"requests": [URI, ...], "resources": [URI and in it "requests": [TEXT, ...],
 ...], "errors": [ERROR, ...]}, a line for each resource; "requests" in it has the
 texts of those that it is compatible with, and resources without one are only there
@@ -30,21 +38,21 @@ from argparse import Namespace
 from itertools import chain, islice
 
 from rocon_uri.cli import check
+from rocon_uri.cli.databases import is_url, open_fleet
 from rocon_uri.cli.display import painter
 from rocon_uri.cli.given import GivenURI, Report, say, shown_name
 from rocon_uri.cli.progress import beside_progress
 from rocon_uri.compatibility import LEGEND, MARKS, UNDECIDED, explain
 from rocon_uri.exceptions import PatternTooComplex
 from rocon_uri.sources.wording import near_misses, quoted
-from rocon_uri.uri import is_compatible, with_any_name
+from rocon_uri.uri import RoconURI, is_compatible, with_any_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Dict, Iterator, List, Optional, Tuple
+    from typing import Dict, Iterable, Iterator, List, Optional, Tuple
     from rocon_uri.cli.given import Line
     from rocon_uri.compatibility import Explanation
-    from rocon_uri.uri import RoconURI
     Verdicts = List[Optional[bool]]
 
 __all__ = ['add_arguments', 'main']
@@ -58,8 +66,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help='a URI, as what an app runs on')
     parser.add_argument('--requests-in', metavar='FILE',
                         help='take requests from a file, after those given as arguments')
-    parser.add_argument('--in', dest='resources_in', metavar='FILE',
+    parser.add_argument('--in', dest='resources_in', metavar='FILE|URL',
                         help='the resources to find them among, as robots')
+    parser.add_argument('--into', metavar='URL', help='store the resources of FILE there')
     parser.add_argument('--why', action='store_true',
                         help='compare a REQUEST with a URI given after it, as check does')
     parser.add_argument('--matrix', action='store_true', help='show requests against resources')
@@ -73,10 +82,20 @@ def main(args: argparse.Namespace) -> int:
     if args.why:
         return check.main(Namespace(a=args.requests[0], b=args.requests[1], json=args.json))
     report = Report(args.json)
+    if args.into is not None:
+        fleet = open_fleet(args.into, report, create=True)
+        if fleet:
+            fleet.store(args.resources_in)
+        return report.status
     requests = [given for given in map(report.read, args.requests) if given]
     if args.requests_in is not None:
         requests.extend(report.read_file(args.requests_in))
     matches = Matches(requests, args.resources_in, report, args.matrix)
+    if is_url(args.resources_in):
+        fleet = open_fleet(args.resources_in, report, create=False)
+        only = len(requests) == 1 and not args.matrix
+        matches.path = fleet.name if fleet else ''
+        matches.batches = fleet.lines(requests[0].uri if only else RoconURI()) if fleet else []
     if args.json:
         _print_json(matches, report)
     elif args.matrix:
@@ -87,18 +106,24 @@ def main(args: argparse.Namespace) -> int:
             write(text + '\n')
     else:
         _print_pairs(matches)
-    if not matches.found and not matches.undecided and matches.nearest():
+    if not matches.found and not matches.undecided and not is_url(args.resources_in) \
+            and matches.nearest():
         say('rocon_uri: note: ' + matches.nearest())
     return report.status or (0 if matches.found else 1)
 
 
 def _wrong_use(args: argparse.Namespace) -> str:
     if args.why:
-        if len(args.requests) == 2 and args.requests_in is None and args.resources_in is None:
+        if len(args.requests) == 2 and args.requests_in is args.resources_in is args.into is None:
             return ''
         return '--why takes a REQUEST and a URI to compare it with, and no file'
     if args.resources_in is None:
         return 'the following arguments are required: --in'
+    if args.into is not None:
+        if args.requests or args.requests_in is not None or args.matrix or args.json \
+                or is_url(args.resources_in):
+            return '--into takes --in FILE, and nothing else'
+        return '' if is_url(args.into) else '--into takes a URL such as sqlite:///fleet.db'
     if not args.requests and args.requests_in is None:
         return 'give a REQUEST, or a file of them with --requests-in'
     if args.requests_in == args.resources_in == '-':
@@ -125,6 +150,7 @@ class Matches:
         self.found = False
         self.undecided: List[Tuple[Line, Verdicts]] = []
         self.path = path
+        self.batches: Iterable[Iterator[Line]] = report.read_lines(path)
         self._report = report
         self._every = every
         self._kinds: Dict[Tuple[object, ...], _Kind] = {}
@@ -133,7 +159,7 @@ class Matches:
         uris = [request.uri for request in self.requests]
         nothing: Verdicts = [False] * len(uris)
         kinds, every = self._kinds, self._every
-        for batch in self._report.read_lines(self.path):
+        for batch in self.batches:
             with beside_progress():
                 for line in batch:
                     uri = line[0]
@@ -173,7 +199,7 @@ class Matches:
                 excluded.append((len(fields), 'hardware_platform' in fields, request, explanation,
                                  line))
         *_, request, explanation, (_, text, number) = min(excluded, key=lambda found: found[:2])
-        return 'nothing found%s; the nearest is %s:%d: %s, excluded by %s' % (
+        return 'nothing found%s; the nearest is %s:%s: %s, excluded by %s' % (
             ' for %s' % quoted(request.text) if len(self.requests) > 1 else '',
             shown_name(self.path), number, quoted(text),
             ' and '.join('%s (%s, requested %s)' % (field.field, quoted(field.b), quoted(field.a))

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from typing import TYPE_CHECKING, Dict, Iterable, List, Mapping, Tuple
 
@@ -10,7 +11,7 @@ from sqlalchemy.pool import StaticPool
 from rocon_uri.name_pattern import Glob, NamePattern
 from rocon_uri.resource_database.dialects import (
     ADD_KIND, COLUMNS, REPLACE, Condition, Dialect, ranges)
-from rocon_uri.resource_database.engines import raw_connection
+from rocon_uri.resource_database.engines import DatabaseError, raw_connection, shown
 from rocon_uri.resource_database.functions import add_functions
 from rocon_uri.resource_database.names import is_left_to_database
 
@@ -108,10 +109,13 @@ def prepare_file(engine: Engine, create: bool) -> None:
     Refuse a database of which each connection would have its own, and let others write.
 
     :param engine: `sqlalchemy.engine.Engine`
-    :param bool create: set WAL; else change nothing
+    :param bool create: make the file, and set WAL; else change nothing
     :raises ValueError: for one in memory, unless it has one connection only
     :raises DatabaseError: if there is no such file, and it cannot be created
     """
+    path = engine.url.database
+    if not create and path and not path.startswith('file:') and not os.path.exists(path):
+        raise DatabaseError('%s: No such file or directory' % shown(engine))
     with raw_connection(engine) as cursor:
         cursor.execute('PRAGMA database_list')
         is_file = any(name == 'main' and path for _, name, path in cursor.fetchall())
