@@ -7,7 +7,7 @@ import runpy
 
 import pytest
 from made_packages import make_package
-from sources import ROOT
+from sources import ROOT, SOURCE
 
 from rocon_uri.lint import check_packages
 from rocon_uri.lint.explanations import EXPLANATIONS
@@ -23,7 +23,8 @@ _NAMED = {'add', 'check', 'check_exists', 'error', 'fault', 'warn', 'with_id', '
 def ids_in_source():
     """The ids that the source gives to faults and findings."""
     found = set()
-    for path in (ROOT / 'src').rglob('*.py'):
+    for path in [path for package in ('rocon_uri', 'capabilities')
+                 for path in (SOURCE / package).rglob('*.py')]:
         for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
             if isinstance(node, ast.Call) and node.args:
                 function = node.func
@@ -160,6 +161,14 @@ def specs(camera='sensor_msgs/Image', front='', usb=''):
     return {'Camera_yaml': CAMERA % camera, 'Front_yaml': FRONT + front, 'usb_yaml': USB + usb}
 
 
+def app(platform='pr2', interface='a.interface', more='launch: ours/a.launch', **files):
+    """The files of a package with an app of app_manager."""
+    return {'<export>': '<depend>app_manager</depend><export><app_manager app_dir="apps"/>',
+            'apps__x_installed': 'apps: [{app: ours/a}]', 'a_interface': '{}', **LAUNCH,
+            'a_app': '{platform: %s, interface: ours/%s, %s}' % (platform, interface, more),
+            **files}
+
+
 OCCURRENCES = {
     'cannot-read': {'x_interactions': None},
     'not-yaml': rapp('['),
@@ -188,6 +197,7 @@ OCCURRENCES = {
     'launch-no-launch': rapp(a_launch='<robot/>'),
     'invalid-uri': {'x_interactions': '[{name: A, compatibility: "rocon:/pr3"}]'},
     'one-slash': {'x_interactions': '[{name: A, compatibility: "rocon://pc"}]'},
+    'misplaced-name': {'x_interactions': '[{name: A, compatibility: "rocon:/pc/kitkat"}]'},
     'invalid-manifest': {'email="somebody@example.org"': ''},
     'duplicate-package': {'copy__package_xml': '<package><name>ours</name></package>',
                           'package_xml': None},
@@ -199,7 +209,19 @@ OCCURRENCES = {
     'not-exported': {'b__c_rapp': 'display: A\ndescription: B\n'},
     'not-listed': {'a_app': '{}'},
     'outside-app-dir': {'a_installed': 'apps: []'},
-    'never-runs': {'a_rapp': 'compatibility: rocon:/'},
+    'never-runs': {'a_rapp': 'display: A\ndescription: B\ncompatibility: rocon:/'},
+    'own-interface': {**rapp('parent_name: b\npublic_interface: a.yaml', a_yaml='{}', **LAUNCH),
+                      'b__b_rapp': 'display: A\ndescription: B\n'},
+    'virtual-capabilities': {**specs(), 'a_rapp': 'display: A\ndescription: B\n'
+                                                  'required_capabilities: [{name: ours/Camera}]'},
+    'interface-missing': app(interface='b.interface'),
+    'interface-ambiguous': app(b__a_interface='{}'),
+    'launch-ambiguous': app(b__a_launch='<launch/>'),
+    'run-missing': app(more='run: ours/a.sh'),
+    'run-ambiguous': app(more='run: ours/a.sh', a_sh='x', b__a_sh='x'),
+    'icon-ambiguous': app(more='launch: ours/a.launch, icon: ours/a.png', a_png='', b__a_png=''),
+    'unregistered-platform': app('our_robot'),
+    'group-platform': app('robot'),
     'no-interactions': {'x_interactions': ''},
     'duplicate-interaction': {'x_interactions': '[%s, %s]' % (
         2 * ('{name: A, command: a, compatibility: "rocon:/"}',))},
@@ -212,7 +234,8 @@ OCCURRENCES = {
     'no-package': None,         # of single files: test_cli_check.py
 }
 EXPORTED = {'Camera_yaml': 'capability_interface', 'Front_yaml': 'semantic_capability_interface',
-            'usb_yaml': 'capability_provider', 'a_rapp': 'rocon_app', 'b__a_rapp': 'rocon_app'}
+            'usb_yaml': 'capability_provider', 'a_rapp': 'rocon_app', 'b__a_rapp': 'rocon_app',
+            'b__b_rapp': 'rocon_app'}
 
 
 def test_each_id_has_an_occurrence():
@@ -231,6 +254,8 @@ def test_each_id_occurs_where_it_should_and_alone(tmp_path, monkeypatch, fault_i
     manifest = folder / 'package.xml'
     for old, new in edits.items():
         manifest.write_text(manifest.read_text().replace(old, new))
+    for program in folder.rglob('*.sh'):
+        program.chmod(0o755)
     if fault_id == 'cannot-read':
         (folder / 'x.interactions').symlink_to('nowhere')
     if fault_id == 'duplicate-package':

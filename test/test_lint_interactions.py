@@ -127,6 +127,17 @@ def test_what_an_entry_cannot_do_without(tmp_path, monkeypatch, text, finding):
     assert len(lines) == bool(finding) and all('error: ' + finding in line for line in lines)
 
 
+@pytest.mark.parametrize('uri, column, meant', [
+    ('rocon:/pc/kitkat', 38, "an operating_system (did you mean 'rocon:/pc/*/*/kitkat'?)"),
+    ('rocon:/pc/kitkat#a/kitkat', 40,
+     "an operating_system (did you mean 'rocon:/pc/*/*/kitkat#a/kitkat'?)"),
+    ('rocon:/pc/jessie', None, ''), ('rocon:/pc/*/*/kitkat', None, '')])
+def test_a_name_that_is_a_value_of_another_field(tmp_path, monkeypatch, uri, column, meant):
+    lines = found(tmp_path, monkeypatch, '[{name: A, compatibility: "%s"}]' % uri)
+    assert lines == ([] if column is None else [
+        "1:%d: warning: compatibility: name 'kitkat' is %s [misplaced-name]" % (column, meant)])
+
+
 PAIRED = '''\
 interactions:
 - {name: Menu, command: web, compatibility: "rocon:/pc", required_pairings: [%s]}

@@ -7,6 +7,7 @@ from typing import Callable, Iterable, List, Mapping, Optional, Sequence
 from capabilities.specs.interface import CapabilityInterface
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
+from rocon_uri.misplaced_name import misplaced_name
 from rocon_uri.sources.checked import CheckedMapping, Reading
 from rocon_uri.sources.launch_file import MISSING, LaunchFiles
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
@@ -171,7 +172,7 @@ class CheckedFile(Reading):
             self.check_ros_name(new_names.get(name), 'new name', new_names.value_place(name))
 
     def check_compatibility(self, text: str, vocabulary: Vocabulary, place: Place) -> None:
-        """Check that a compatibility string is a rocon URI; warn if ``//`` is read as ``/``."""
+        """Check that a compatibility string is a rocon URI; warn of what was probably not meant."""
         try:
             uri = parse(text, vocabulary)
         except RoconURIValueError as error:
@@ -184,6 +185,11 @@ class CheckedFile(Reading):
             self.warn('compatibility: %s is read as %s, since %s is a hardware_platform, not a '
                       'concert' % (quoted(text), quoted(uri.short), uri.hardware_platform),
                       self._place_in_text(text, 0, place), 'one-slash')
+        misplaced = misplaced_name(uri)
+        if misplaced is not None:
+            index = text.partition('#')[0].rfind('/' + uri.name.string) + 1
+            self.warn('compatibility: ' + misplaced, self._place_in_text(text, index, place),
+                      'misplaced-name')
 
     def _suggestion(self, text: str, candidates: Iterable[str],
                     find: Callable[[str, Iterable[str]], List[str]] = near_misses) -> str:
