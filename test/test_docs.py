@@ -50,6 +50,13 @@ def test_the_examples_of_a_page_run(page):
     assert not failed
 
 
+def test_the_page_of_json_says_what_the_command_says():
+    from rocon_uri.cli import VERBS
+    from rocon_uri.cli.json_forms import json_forms
+    page = re.sub('(?m)^   ', '', (ROOT / 'doc' / 'json.rst').read_text(encoding='utf-8'))
+    assert page.endswith('\n' + json_forms(VERBS) + '\n'), 'run doc/make_json.py'
+
+
 def test_sphinx_builds_it_without_a_warning(tmp_path):
     pytest.importorskip('sphinx')
     pytest.importorskip('sqlalchemy', reason='SQLAlchemy is not installed')

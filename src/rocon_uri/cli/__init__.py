@@ -6,38 +6,27 @@ Examples:
   rocon_uri parse 'rocon:/turtlebot2|pr2/bob'
   rocon_uri check 'rocon:/kobuki/*/ros' rocon:/kobuki/bob/noetic/focal
   rocon_uri match --matrix --requests-in apps.txt --in fleet.txt
+  rocon_uri help match
 
 Exit status of every VERB:
   0  done, or the answer is yes
   1  the answer is no
   2  something given was bad, whatever else was answered
-
-With --json a VERB prints one object. It always has "errors", a list of ERROR.
-  ERROR  {"message", "uri", "field", "value", "span": [START, END],
-         "suggestions": [TEXT, ...], "file", "line"}
-         what is wrong, in which URI, where in it, and what was probably meant;
-         null where that does not apply
-  URI    {"text", "file", "line", "uri", "short", "fields": {"concert_name",
-         "hardware_platform": [TEXT, ...], "name", "application_framework":
-         [TEXT, ...], "operating_system": [TEXT, ...], "rocon_app"},
-         "read_with_one_slash": BOOL}
-         the text as it was given, the file and the line it stands on (null for
-         an argument), the canonical text, the short one, the fields as in the
-         message rocon_uri/RoconURI, and whether // was read as /
 """
 from __future__ import annotations
 
-import argparse
 import io
 import os
 import re
 import sys
-from functools import partial
 from importlib import import_module
+
+from rocon_uri.cli.parsers import verb_parser, whole_parser
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Callable, Iterable, List, Optional, Sequence
+    import argparse
+    from typing import Iterable, List, Optional, Sequence
 
 __all__ = ['main']
 
@@ -45,6 +34,11 @@ __all__ = ['main']
 #: what it takes; its ``main(args)`` does it and returns the exit status.
 VERBS = ('parse', 'check', 'match', 'fields', 'rules', 'platform', 'apps', 'specs',
          'capabilities')
+
+#: What verbs need beside Python: module, package of apt and of PyPI.
+_INSTALLED_BY = {'catkin_pkg': ('python3-catkin-pkg', 'catkin_pkg'),
+                 'sqlalchemy': ('python3-sqlalchemy', 'SQLAlchemy'),
+                 'yaml': ('python3-yaml', 'PyYAML')}
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
@@ -112,59 +106,76 @@ def _without_remappings(argv: Iterable[str]) -> List[str]:
 
 
 def _run(argv: List[str]) -> int:
-    if argv and argv[0] in VERBS and '_ARGCOMPLETE' not in os.environ:
+    if '_ARGCOMPLETE' in os.environ:
+        _complete(whole_parser(__doc__, VERBS))
+    if argv[:1] in (['help'], ['--help'], ['-h']):
+        return _help(argv[1:])
+    shared = []
+    while argv[:1] == ['--json']:   # it can also stand before the verb
+        shared = [argv.pop(0)]
+    if argv and argv[0] in VERBS:
         # The common case, without importing the other verbs and telling argparse of them.
-        parser = _verb_parser(argv[0], partial(argparse.ArgumentParser, 'rocon_uri ' + argv[0]))
-        args = parser.parse_args(argv[1:])
+        args = verb_parser(argv[0]).parse_args(shared + argv[1:])
+        return _do(args, argv[0])
+    if argv and argv[0].startswith('-'):
+        whole_parser(__doc__, VERBS).parse_args(argv)       # shows the version or what is wrong
+    if argv:
+        from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+        print('rocon_uri: %s is not a verb%s; rocon_uri help lists them' % (
+            quoted(argv[0]), did_you_mean(near_misses(argv[0], (*VERBS, 'help')))),
+            file=sys.stderr)
     else:
-        parser = _whole_parser()
-        _complete(parser)
-        args = parser.parse_args(argv)
-        if args.main is None:
-            parser.print_help(sys.stderr)
-            return 2
-    status: int = args.main(args)
-    return status
+        print(_overview(), file=sys.stderr)
+    return 2
 
 
-def _whole_parser() -> argparse.ArgumentParser:
-    description, _, details = (__doc__ or '').strip().partition('\n\n')
-    parser = argparse.ArgumentParser('rocon_uri', description=description, epilog=details,
-                                     allow_abbrev=False, formatter_class=_formatter)
-    parser.set_defaults(main=None)
-    subparsers = parser.add_subparsers(metavar='VERB', title='verbs', prog='rocon_uri',
-                                       description='rocon_uri VERB --help says more about each')
-    for name in VERBS:
-        summary = _description(name).partition('\n')[0].rstrip('.')
-        _verb_parser(name, partial(subparsers.add_parser, name, help=summary))
-    return parser
+def _help(names: List[str]) -> int:
+    """Show the help of a verb, that of a verb's own verb, the forms of JSON, or that of it all."""
+    if not names:
+        whole_parser(__doc__, VERBS).print_help()
+        return 0
+    if names[0] in ('json', '--json'):
+        from rocon_uri.cli.json_forms import json_forms
+        print(json_forms(VERBS))
+        return 0
+    return _run([*names, '--help'])
 
 
-def _verb_parser(name: str, make: Callable[..., argparse.ArgumentParser]
-                 ) -> argparse.ArgumentParser:
-    verb = import_module('rocon_uri.cli.' + name)
-    parser = make(description=_description(name), allow_abbrev=False, formatter_class=_formatter)
-    verb.add_arguments(parser)
-    parser.add_argument('--json', action='store_true',
-                        help='print one JSON object; rocon_uri --help says what is in it')
-    parser.set_defaults(main=verb.main)
-    return parser
+def _overview() -> str:
+    """A line for each verb, and one that says how to learn more."""
+    from rocon_uri.cli.parsers import summary
+    lines = ['usage: rocon_uri VERB ...    (rocon_uri help VERB says more)']
+    lines += ['  %-14s%s' % (verb, summary(verb)) for verb in VERBS]
+    return '\n'.join(lines)
 
 
-def _description(name: str) -> str:
-    return (import_module('rocon_uri.cli.' + name).__doc__ or '').strip()
-
-
-def _formatter(prog: str) -> argparse.HelpFormatter:
-    """With a width of its own, since argparse imports a lot to find out that of the terminal."""
-    return argparse.RawDescriptionHelpFormatter(prog, width=80)
+def _do(args: argparse.Namespace, verb: str) -> int:
+    """What a verb does; a Python module that it needs and that is not installed is one line."""
+    try:
+        status: int = args.main(args)
+        return status
+    except ModuleNotFoundError as error:
+        module = (error.name or '').partition('.')[0]
+        if module in ('', 'rocon_uri', 'capabilities'):
+            raise
+    from rocon_uri.cli.display import print_json
+    from rocon_uri.cli.given import Report, say
+    report = Report(args.json)
+    message = '%s needs the Python module %s, which %s does not have' % (
+        verb, module, sys.executable)
+    if module in _INSTALLED_BY:
+        message += ': install it with apt-get install %s, or pip install %s' % _INSTALLED_BY[module]
+    say('rocon_uri: ' + message)
+    report.note(message, None)
+    if args.json:
+        print_json({'errors': report.errors})
+    return report.status
 
 
 def _complete(parser: argparse.ArgumentParser) -> None:
-    """Answer the shell, if it is the shell that asks what could follow, and end there."""
-    if '_ARGCOMPLETE' in os.environ:
-        try:    # it is not everywhere, and takes longer to import than all the rest
-            argcomplete = import_module('argcomplete')
-        except ImportError:
-            return
-        argcomplete.autocomplete(parser)
+    """Tell the shell, which asks, what could follow, and end there."""
+    try:    # it is not everywhere, and takes longer to import than all the rest
+        argcomplete = import_module('argcomplete')
+    except ImportError:
+        return
+    argcomplete.autocomplete(parser)

@@ -31,7 +31,7 @@ JSON: {"robot": URI, "apps": [{"name", "form": "rapp" or "app", "display",
 "reasons": [{"kind", "text", "fields", "fault"}, ...]}, ...],
 "errors": [ERROR, ...]}
 with the ID of a reason as its kind, providers in the order in which to start
-them, fields as "rocon_uri check --help" describes them, and null for what does not
+them, fields as those of check, and null for what does not
 exist; apps that do not run are included only with --all or if they are named, and
 capabilities only if they are named
 """

@@ -35,7 +35,7 @@ def print_json(answer: object) -> None:
 
 
 def fields_as_json(explanation: Explanation) -> List[Dict[str, object]]:
-    """What an explanation says of each field, as ``rocon_uri check --help`` describes it."""
+    """What an explanation says of each field, as ``rocon_uri help json`` describes it."""
     return [{'field': field.field, 'a': field.a, 'b': field.b,
              'compatible': field.is_compatible, 'in_common': field.shared}
             for field in explanation.fields]

@@ -60,7 +60,7 @@ class GivenURI:
             say('rocon_uri: note: in %s, %s' % (quoted(self.text), note))
 
     def as_json(self) -> Dict[str, object]:
-        """URI, as ``rocon_uri --help`` describes it."""
+        """URI, as ``rocon_uri help json`` describes it."""
         uri = self.uri
         return {
             'text': self.text, 'file': self.file, 'line': self.line,
@@ -81,7 +81,7 @@ class Report:
     """
     What was bad: said on stderr when it is met, and kept where JSON is asked for.
 
-    ``errors`` is a list of ERROR, as ``rocon_uri --help`` describes it. ``status`` is the exit
+    ``errors`` is a list of ERROR, as ``rocon_uri help json`` describes it. ``status`` is the exit
     status, 0 until something was bad, then 2.
     """
 
@@ -109,7 +109,7 @@ class Report:
         """
         Read a file of URIs, one a line; ``-`` is standard input.
 
-        Blank lines and those whose first character is ``#`` are skipped. Those that are not legal
+        Blank lines and comments, which start with ``#``, are skipped. Those that are not legal
         are reported: a fault that many lines have in full where it is met first, and the others
         at the end. Each iterator that is yielded is to be used up before the next; it has what
         can be had without waiting.
@@ -193,7 +193,7 @@ class _FaultsOfFile:
                     continue
                 uri = parse_once(line, current())   # most lines have no white space around
             except RoconURIValueError:
-                if line[:1] == '#' or not line.strip():
+                if line.lstrip()[:1] in ('', '#'):
                     continue
                 line = line.strip()
                 try:

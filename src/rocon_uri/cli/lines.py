@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import os
 import stat
+import sys
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 
 from rocon_uri.cli.progress import progress
@@ -30,6 +31,8 @@ def read_lines(path: str) -> Iterator[List[str]]:
     :raises OSError: if it cannot be read
     :raises UnicodeError: if it is UTF-16
     """
+    if path == '-':
+        _say_what_is_waited_for()
     with open(0 if path == '-' else path, 'rb', closefd=path != '-') as file:
         status = os.fstat(file.fileno())
         with progress(status.st_size if stat.S_ISREG(status.st_mode) else None) as bar:
@@ -59,3 +62,10 @@ def _refuse_utf16(octets: bytes) -> None:
     if zero >= 0:
         raise UnicodeError('it is UTF-16, not UTF-8: byte 0x%02x at offset %d'
                            % (start[zero], zero))
+
+
+def _say_what_is_waited_for() -> None:
+    """Whoever types at a terminal that stays silent should know why."""
+    if sys.stdin is not None and sys.stdin.isatty():
+        print('rocon_uri: reading standard input, one URI a line; Ctrl-D ends it',
+              file=sys.stderr)

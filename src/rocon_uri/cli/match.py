@@ -8,7 +8,7 @@ Examples:
   rocon_uri match --in fleet.txt --into sqlite:///fleet.db
   rocon_uri match 'rocon:/robot/*/ros' --in sqlite:///fleet.db
 
-A FILE has one URI a line; blank lines and lines whose first character is # are
+A FILE has one URI a line; blank lines and comments, which start with #, are
 skipped. Bad lines are reported with their number, and skipped; a fault that many
 lines have is reported once. Standard input is -.
 Prints the compatible resources as written in FILE, one a line; if there are several

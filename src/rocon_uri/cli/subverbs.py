@@ -4,6 +4,8 @@ from __future__ import annotations
 import argparse
 from importlib import import_module
 
+from rocon_uri.cli.parsers import described
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Callable, Iterable
@@ -26,10 +28,9 @@ def add_subverbs(parser: argparse.ArgumentParser, package: str, names: Iterable[
     subparsers.required = True
     for name in names:
         verb = import_module('%s.%s' % (package, name))
-        description = (verb.__doc__ or '').strip()
+        description = described(verb.__doc__)
         verb_parser = subparsers.add_parser(
-            name, help=description.partition('\n')[0].rstrip('.'), description=description,
-            allow_abbrev=False, formatter_class=parser.formatter_class)
+            name, help=description.partition('\n')[0].rstrip('.'), description=description)
         verb.add_arguments(verb_parser)
         add_shared(verb_parser)
         # It can also stand before the verb, which this must not undo.

@@ -26,11 +26,11 @@ from rocon_uri.cli.subverbs import add_subverbs
 
 __all__ = ['add_arguments', 'main']
 
-_VERBS = ('list', 'status', 'plan', 'start', 'stop', 'watch')
+VERBS = ('list', 'status', 'plan', 'start', 'stop', 'watch')
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_subverbs(parser, __name__, _VERBS, add_server)
+    add_subverbs(parser, __name__, VERBS, add_server)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -20,11 +20,11 @@ from rocon_uri.cli.subverbs import add_subverbs
 
 __all__ = ['add_arguments', 'main']
 
-_VERBS = ('list', 'show', 'check', 'graph')
+VERBS = ('list', 'show', 'check', 'graph')
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_subverbs(parser, __name__, _VERBS)
+    add_subverbs(parser, __name__, VERBS)
 
 
 def main(args: argparse.Namespace) -> int:
