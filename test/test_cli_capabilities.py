@@ -170,7 +170,7 @@ def test_the_graph_shows_what_runs(server, packages):
     done = subprocess.run([*COMMAND[:2], 'specs', 'graph', *packages],
                           env=server.robot.server_environment, stdout=subprocess.PIPE,
                           universal_newlines=True)
-    outlined = [line.split('"')[1] for line in done.stdout.splitlines() if 'penwidth' in line]
+    outlined = [line.split('"')[1] for line in done.stdout.splitlines() if 'penwidth=4' in line]
     assert outlined == ['robot/Base', 'robot/Nav', 'robot/base', 'robot/nav']
 
 
