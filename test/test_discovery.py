@@ -24,6 +24,7 @@ from capabilities.specs.semantic_interface import (
     InvalidSemanticInterface, SemanticCapabilityInterface)
 from rocon_uri.lint import check_packages
 from rocon_uri.sources.packages import find_packages as packages_of_ours
+from rocon_uri.workspace import read_workspace
 
 WORKSPACE = str(Path(__file__).parent / 'workspace')
 CORPUS = os.environ.get('ROCON_URI_CORPUS', '')
@@ -220,6 +221,23 @@ class TestPackageIndex:
 def test_the_errors_of_specs_have_a_second_place() -> None:
     for error in InvalidInterface, InvalidSemanticInterface, InvalidProvider:
         assert getattr(discovery, error.__name__) is error
+
+
+def test_the_linter_and_discovery_read_an_export_alike(tmp_path: Path) -> None:
+    folder = add_package(tmp_path / 'ours', 'ours', [
+        (INTERFACE, 'a&amp;b.yaml'), (INTERFACE, 'c.yaml<!-- the main one -->'),
+        (INTERFACE, '<![CDATA[d<e>.yaml]]>'), (INTERFACE, '&#x66;.yaml')])
+    for number, name in enumerate(['a&b.yaml', 'c.yaml', 'd<e>.yaml', 'f.yaml']):
+        (folder / name).write_text(SPEC[INTERFACE] % ('A%d' % number))
+    index, errors = index_of(tmp_path)
+    assert (index.names, errors) == (['ours/A0', 'ours/A1', 'ours/A2', 'ours/A3'], [])
+    assert read_workspace([str(tmp_path)]).spec_index.names == index.names
+    assert check_packages([str(tmp_path)]) == []
+    (folder / 'a&b.yaml').unlink()
+    [error] = index_of(tmp_path)[1]
+    assert isinstance(error, OSError) and error.filename == str(folder / 'a&b.yaml')
+    [finding] = check_packages([str(tmp_path)])
+    assert finding.problem == "exported file 'a&b.yaml' does not exist"
 
 
 @pytest.mark.skipif(not os.path.exists('/proc/self/mem'), reason='there is no /proc')

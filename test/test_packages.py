@@ -167,6 +167,28 @@ def test_a_manifest_that_catkin_refuses_exports_all_the_same(tmp_path: Path) -> 
         str(tmp_path / 'ours' / 'a.rapp')]
 
 
+@pytest.mark.skipif(not os.path.isdir('/usr/share'), reason='there is no /usr/share')
+def test_only_the_folders_directly_in_usr_share_are_visited(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    visited: List[str] = []
+    scandir = os.scandir
+    monkeypatch.setattr(os, 'scandir', lambda path: visited.append(path) or scandir(path))
+    folders = list(package_folders('/usr/share'))
+    assert {os.path.dirname(folder) for folder in folders} <= {'/usr', '/usr/share'}
+    assert {os.path.dirname(folder) for folder in visited} == {'/usr', '/usr/share'}
+
+
+def test_a_package_in_an_earlier_folder_hides_that_in_a_later_one(tmp_path: Path) -> None:
+    for name in 'under', 'over':
+        make_package(tmp_path / name, 'ours')
+    make_package(tmp_path / 'under', 'theirs')
+    errors: List[PackageError] = []
+    found = find_packages([str(tmp_path / 'over'), str(tmp_path / 'under')], errors)
+    assert {name: package.folder for name, package in found.items()} == {
+        'ours': str(tmp_path / 'over' / 'ours'), 'theirs': str(tmp_path / 'under' / 'theirs')}
+    assert errors == []
+
+
 def test_hidden_folders_are_skipped(tmp_path: Path) -> None:
     make_package(tmp_path / '.git', 'ours')
     make_package(tmp_path / 'a' / '.b' / 'c', 'theirs')

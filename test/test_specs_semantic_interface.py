@@ -152,6 +152,11 @@ def test_what_does_not_fit(body, error):
     assert str(raised.value) == error
 
 
+def test_a_topic_and_a_service_may_come_out_alike():
+    seen = resolved('remappings: {topics: {/cmd_vel: x}, services: {camera/image: x}}')
+    assert 'x' in seen.topics and list(seen.services) == ['x']
+
+
 def test_two_names_can_come_out_the_same_by_the_namespace_alone():
     interface = capability_interface_from_string(
         'name: A\nspec_version: 1\nspec_type: interface\n'
