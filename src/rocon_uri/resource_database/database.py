@@ -160,7 +160,7 @@ class ResourceDatabase:
                     if asked.check is None or uri.name_pattern is not None \
                             or asked.check(uri.name_text):
                         yield uri
-                rows = cursor.fetchmany(_ROWS_AT_ONCE)
+                rows = cursor.fetchmany(_ROWS_AT_ONCE) if len(rows) == _ROWS_AT_ONCE else []
 
     def count(self, request: Resource) -> int:
         """
