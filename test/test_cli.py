@@ -352,6 +352,8 @@ def test_shell_completion():
     assert completions('rocon_uri ch') == ['check']
     assert completions('rocon_uri match --req') == ['--requests-in']
     assert set(completions('rocon_uri fields app')) == {'application_framework'}
+    for option in '--ignore', '--explain':
+        assert completions('rocon_uri specs check %s launch-m' % option) == ['launch-missing']
 
 
 def test_shell_completion_finds_the_mark():

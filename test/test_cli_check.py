@@ -85,6 +85,14 @@ def test_what_is_checked(check, workspace, arguments, expected, end):
                             for place_id in expected)
 
 
+def test_a_launch_file_is_checked_as_what_names_it(check, workspace):
+    launch = workspace / 'src/ours/rapps/dance.launch'
+    launch.write_text('<robot/>')
+    (workspace / 'src/ours/x.launch').write_text('<robot/>')        # named by nothing
+    assert found(check('src/ours/rapps/dance.launch', 'src/ours/x.launch')) == [
+        ('src/ours/rapps/dance.launch:1:1', 'launch-no-launch')]
+
+
 def test_a_single_file_is_checked_from_within_its_package(check, workspace, monkeypatch):
     monkeypatch.chdir(workspace / 'src/ours/rapps')
     assert found(check('dance.rapp', '--package-path', workspace / 'around')) == [

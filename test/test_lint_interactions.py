@@ -129,7 +129,7 @@ def test_what_an_entry_cannot_do_without(tmp_path, monkeypatch, text, finding):
 
 @pytest.mark.parametrize('uri, column, meant', [
     ('rocon:/pc/kitkat', 38, "an operating_system (did you mean 'rocon:/pc/*/*/kitkat'?)"),
-    ('rocon:/pc/kitkat#a/kitkat', 40,
+    ('rocon:/pc/kitkat#a/kitkat', 38,
      "an operating_system (did you mean 'rocon:/pc/*/*/kitkat#a/kitkat'?)"),
     ('rocon:/pc/jessie', None, ''), ('rocon:/pc/*/*/kitkat', None, '')])
 def test_a_name_that_is_a_value_of_another_field(tmp_path, monkeypatch, uri, column, meant):

@@ -54,7 +54,7 @@ def test_catkin_make_checks_it_and_its_rostest_passes(tidybot, tmp_path):
     assert str(tmp_path / 'src/rocon_uri/scripts/rocon_uri') in output
     assert 'rocon_uri: no errors and no warnings in 1 package' in output
     results = tmp_path / 'build' / 'test_results'
-    assert 'Summary: 4 tests, 0 errors, 0 failures' in succeed(
+    assert 'Summary: 6 tests, 0 errors, 0 failures' in succeed(
         tmp_path, 'catkin_test_results', str(results))
     assert (results / 'tidybot' / 'rocon_uri_check.xml').is_file()
     assert (results / 'tidybot' / 'rostest-test_tidybot.xml').is_file()

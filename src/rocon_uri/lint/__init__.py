@@ -123,8 +123,9 @@ def _checks(checked: Mapping[str, Package], workspace: Workspace, ignored: List[
         if folder and is_inside(rapp.path, folder):
             yield rapp.path, partial(check_rapp, rapp, folder, workspace)
     for package in checked.values():
-        for path in installed_files(package):
-            yield path, list    # what is wrong with it was found when it was read
+        for path in [*package.files('rocon_uri', 'rules'), *installed_files(package)]:
+            if is_inside(path, package.folder) and os.path.isfile(path):
+                yield path, list    # what is wrong with it was found when it was read
     for app in workspace.app_files.values():
         folder = _folder(app.name, checked)
         if folder:

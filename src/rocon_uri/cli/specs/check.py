@@ -62,14 +62,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         'finding beside its line; json is the same as --json')
     parser.add_argument('--junit', metavar='FILE',
                         help='also write a report of test results, as catkin reads it')
-    parser.add_argument('--ignore', metavar='ID', action='append', default=[],
-                        help='leave out the findings with this id (can be given several times)')
+    ignore = parser.add_argument(
+        '--ignore', metavar='ID', action='append', default=[],
+        help='leave out the findings with this id (can be given several times)')
     parser.add_argument('--warnings-as-errors', action='store_true',
                         help='make errors of all warnings')
     parser.add_argument('-q', '--quiet', action='store_true',
                         help='print findings only, not how many there are')
-    parser.add_argument('--explain', metavar='ID',
-                        help='say what a finding means and how to mend it, and check nothing')
+    explain = parser.add_argument(
+        '--explain', metavar='ID',
+        help='say what a finding means and how to mend it, and check nothing')
+    for argument in ignore, explain:
+        argument.completer = _all_ids   # type: ignore[attr-defined]    # for argcomplete
+
+
+def _all_ids(**_: object) -> List[str]:
+    """What the shell offers for an ID."""
+    from rocon_uri.lint.explanations import EXPLANATIONS
+    return list(EXPLANATIONS)
 
 
 def main(args: argparse.Namespace) -> int:
