@@ -5,6 +5,6 @@ from setuptools import find_packages, setup
 setup(**generate_distutils_setup(
     packages=find_packages('src'),
     package_dir={'': 'src'},
-    package_data={'': ['py.typed', '*/*.json', '*/*.yaml'],
+    package_data={'': ['py.typed', '*.pyi', '*/*.json', '*/*.yaml'],
                   'capabilities': ['*.launch', 'placeholder']},
 ))

@@ -66,3 +66,17 @@ def test_those_who_use_it_get_its_types(tmp_path: Path) -> None:
         stderr=subprocess.STDOUT, universal_newlines=True)
     revealed = re.findall('Revealed type is "(?:[a-z_]+[.])*([A-Za-z]+)"', done.stdout)
     assert revealed == [type_name for _, type_name in TYPES], done.stdout
+
+
+def test_who_misspells_a_name_is_told_by_mypy(tmp_path: Path) -> None:
+    program = tmp_path / 'program.py'
+    program.write_text('\n'.join([
+        'import rocon_uri', "rocon_uri.prase('rocon:/pr2')", 'rocon_uri.mesages.to_msg',
+        'rocon_uri.sources.locatde', 'rocon_uri.messages, rocon_uri.rapps, rocon_uri.__version__',
+        'rocon_uri.sources.located, rocon_uri.apps.runnable, rocon_uri.resource_index']))
+    done = subprocess.run(
+        [found('mypy'), '--strict', '--no-incremental', '--follow-imports=silent', str(program)],
+        env=dict(os.environ, MYPYPATH=str(ROOT / 'src')), stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT, universal_newlines=True)
+    assert re.findall(r'program.py:(\d+): error: Module has no attribute "(\w+)"', done.stdout) == [
+        ('2', 'prase'), ('3', 'mesages'), ('4', 'locatde')], done.stdout

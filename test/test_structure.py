@@ -106,6 +106,14 @@ def test_arrows_run_one_way() -> None:
     assert forbidden <= KNOWN_ARROWS
 
 
+def test_no_file_is_executable_that_rosrun_would_find() -> None:
+    """``rosrun rocon_uri <TAB>`` offers every executable file below the folder of the package."""
+    for folder in 'benchmark', 'capabilities', 'doc', 'examples', 'test':
+        executable = [str(path) for path in (ROOT / folder).rglob('*')
+                      if path.is_file() and path.stat().st_mode & 0o111]
+        assert executable == []
+
+
 def test_every_module_has_a_level() -> None:
     names = {module.split('.')[1] for module in MODULES
              if module.startswith('rocon_uri.') and module not in EARLIER_PATHS}

@@ -64,6 +64,10 @@ class SpecIndex:
         self._names_like: Dict[str, NamesByPart] = {}      # by kind, as far as they were needed
         self._compared = 0
 
+    def __repr__(self) -> str:
+        return '<SpecIndex: %d interfaces, %d semantic interfaces, %d providers>' % (
+            len(self._interfaces), len(self._semantic_interfaces), len(self._providers))
+
     @property
     def names(self) -> List[str]:
         """The names of all specs, a list: interfaces, then semantic interfaces, then providers."""

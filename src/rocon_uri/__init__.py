@@ -11,23 +11,15 @@ import os
 import sys
 
 TYPE_CHECKING = False
-if TYPE_CHECKING:
+if TYPE_CHECKING:       # type checkers and editors read __init__.pyi
     from typing import List
-
-    from rocon_uri.compatibility import Relation, explain, relation
-    from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
-    from rocon_uri.field import Field
-    from rocon_uri.platform import generate_platform_rocon_uri
-    from rocon_uri.resource_index import ResourceIndex
-    from rocon_uri.uri import RoconURI, default_uri_string, is_compatible, parse
-    from rocon_uri.vocabulary import Vocabulary
 
 __all__ = ['Field', 'PatternTooComplex', 'Relation', 'ResourceIndex', 'RoconURI',
            'RoconURIValueError', 'Vocabulary', 'default_uri_string', 'explain',
            'generate_platform_rocon_uri', 'is_compatible', 'parse', 'relation']
 
-# Each module is imported when a name in it is first used: a program that may not need this
-# package starts at no cost, and one that only parses does not pay for the rest.
+# Each module is imported when a name in it is first used, or the module itself: a program that may
+# not need this package starts at no cost, and one that only parses does not pay for the rest.
 _NAMES = {
     'compatibility': ('Relation', 'explain', 'relation'),
     'exceptions': ('PatternTooComplex', 'RoconURIValueError'),
@@ -35,6 +27,7 @@ _NAMES = {
     'platform': ('generate_platform_rocon_uri',),
     'resource_index': ('ResourceIndex',),
     'uri': ('RoconURI', 'default_uri_string', 'is_compatible', 'parse'),
+    'version': ('__version__',),
     'vocabulary': ('Vocabulary',),
 }
 
@@ -49,11 +42,18 @@ for _entry in sys.path:
 def __getattr__(name: str) -> object:
     from importlib import import_module
     for module_name, names in _NAMES.items():
-        if name == module_name or name in names:
-            module = import_module('rocon_uri.' + module_name)
-            globals()[name] = module if name == module_name else getattr(module, name)
+        if name in names:
+            globals()[name] = getattr(import_module('rocon_uri.' + module_name), name)
             return globals()[name]
-    raise AttributeError('module %r has no attribute %r' % (__name__, name))
+    from rocon_uri.sources.submodules import found_submodule
+    module = found_submodule(__name__, name)
+    if module is not None:
+        return module
+    message = 'module %r has no attribute %r' % (__name__, name)
+    if sys.version_info < (3, 10) and name[:1] != '_':      # later ones say it themselves
+        from rocon_uri.sources.wording import did_you_mean, near_misses
+        message += did_you_mean(near_misses(name, __all__))
+    raise AttributeError(message)
 
 
 def __dir__() -> List[str]:

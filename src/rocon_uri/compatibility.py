@@ -104,6 +104,10 @@ class Explanation:
         #: tuple of `FieldComparison`: the four fields, after the concert if both name one
         self.fields = tuple(self._comparisons())
 
+    def __repr__(self) -> str:
+        return '<Explanation: %r and %r are %s>' % (
+            self.a.short, self.b.short, 'compatible' if self else 'not compatible')
+
     def _comparisons(self) -> List[FieldComparison]:
         compared: Dict[str, FieldComparison] = {}
         for (field, x), (_, y) in zip(self.a.sets, self.b.sets):      # the name comes last

@@ -64,6 +64,11 @@ class Vocabulary:
         self.fields_read: Dict[str, Dict[str, Any]] = {name: {} for name in fields}
         self.uris_read: Dict[str, Any] = {}
 
+    def __repr__(self) -> str:
+        counts = ', '.join('%d %s' % (len(list(field)), name)
+                           for name, field in self._fields.items())
+        return '<Vocabulary: %s%s>' % (counts, ', open' if self.is_open else '')
+
     @classmethod
     def _of(cls, fields: Dict[str, FieldVocabulary], is_open: bool = False) -> 'Vocabulary':
         vocabulary = cls.__new__(cls)

@@ -61,6 +61,10 @@ class Workspace(NamedTuple):
     #: `OSError`
     faults: List[FileFault]
 
+    def __repr__(self) -> str:
+        return '<Workspace: %d packages, %d apps, %r, %d faults>' % (
+            len(self.packages), len(list(self.apps())), self.spec_index, len(self.faults))
+
     def apps(self) -> Iterator[App]:
         """All apps: the rapps, then those of app_manager. Two may have one name."""
         yield from self.rapps.values()

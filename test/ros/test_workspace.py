@@ -42,6 +42,7 @@ def succeed(folder: Path, *command: str) -> str:
 def tidybot(tmp_path):
     """The package tidybot, in a folder of its own."""
     shutil.copytree(str(TIDYBOT), str(tmp_path / 'src' / 'tidybot'))
+    (tmp_path / 'src' / 'tidybot' / 'test' / 'robot_knows_its_app').chmod(0o755)
     return tmp_path / 'src' / 'tidybot'
 
 
