@@ -117,6 +117,26 @@ def test_what_is_not_a_uri_is_an_error_at_once(fleet, ask):
         getattr(fleet, ask)('rocon:/turtelbot')
 
 
+@pytest.mark.parametrize('give', [list, iter, lambda texts: {text: len(text) for text in texts}])
+def test_a_text_that_is_not_legal_costs_only_itself_among_all(fleet, give):
+    texts = ['rocon:/pr2/bob_9', 'rocon:/pr2/bob-9', 'rocon:/turtelbot/al', FLEET[0], '',
+             'rocon:/pc/carol']
+    index = ResourceIndex({uri: 'payload' for uri in FLEET})
+    faults = index.add_all(give(texts))
+    assert [(fault.uri, fault.field) for fault in faults] == [
+        ('rocon:/pr2/bob-9', 'name'), ('rocon:/turtelbot/al', 'hardware_platform'), ('', 'uri')]
+    assert all(isinstance(fault, RoconURIValueError) for fault in faults)
+    assert list(index) == list(fleet) + [parse('rocon:/pr2/bob_9'), parse('rocon:/pc/carol')]
+    assert index[FLEET[0]] == (len(FLEET[0]) if isinstance(give(texts), dict) else None)
+    assert index[FLEET[1]] == 'payload'
+
+
+def test_what_is_neither_text_nor_uri_ends_adding(fleet):
+    with pytest.raises(TypeError, match='a rocon URI is a str, not int'):
+        fleet.add_all(['rocon:/pc/carol', 7, 'rocon:/pc/marvin'])
+    assert 'rocon:/pc/carol' in fleet and 'rocon:/pc/marvin' not in fleet
+
+
 def test_a_copy_is_another_index(fleet):
     fleet['rocon:/pc'] = ['payload']
     for other in (copy.copy(fleet), copy.deepcopy(fleet), pickle.loads(pickle.dumps(fleet))):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, MutableMapping
 
-from rocon_uri.exceptions import PatternTooComplex, UnregisteredValue
+from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError, UnregisteredValue
 from rocon_uri.sources.wording import quoted
 from rocon_uri.name_index import NameIndex, NameRequest
 from rocon_uri.uri import RoconURI, aligned, is_compatible, parse, with_any_name
@@ -88,6 +88,30 @@ class ResourceIndex(Resources):
             self._payloads.pop(number, None)
         else:
             self._payloads[number] = payload
+
+    def add_all(self, resources: Union[Mapping[Any, Any], Iterable[Resource]]
+                ) -> List[RoconURIValueError]:
+        """
+        Add many resources; a text that is not legal costs only itself.
+
+        :param resources: a mapping from resources to payloads, or an iterable of resources, whose
+            payload is then None
+        :returns: list of RoconURIValueError, one for each text that is not legal, in their order;
+            ``uri`` is the text
+
+        >>> fleet = ResourceIndex()
+        >>> [fault.uri for fault in fleet.add_all(['rocon:/pr2/bob', 'rocon:/pr2/bob-2'])]
+        ['rocon:/pr2/bob-2']
+        """
+        entries = resources.items() if isinstance(resources, Mapping) \
+            else ((uri, None) for uri in resources)
+        faults: List[RoconURIValueError] = []
+        for uri, payload in entries:
+            try:
+                self.add(uri, payload)
+            except RoconURIValueError as fault:
+                faults.append(fault)
+        return faults
 
     def discard(self, uri: Resource) -> None:
         """
