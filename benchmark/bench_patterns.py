@@ -1,10 +1,12 @@
 """Name patterns that bring other engines to a halt."""
 import itertools
 import tracemalloc
+from random import Random
 
 from measure import once
 
 from rocon_uri import PatternTooComplex, ResourceIndex, RoconURIValueError
+from rocon_uri.name_pattern import read
 from rocon_uri.regular.inclusion import includes
 from rocon_uri.regular.intersection import common_name
 from rocon_uri.regular.language import Language
@@ -29,6 +31,7 @@ def figures():
     yield from matching(accepted)
     yield from comparing(accepted)
     yield many()
+    yield sorted_uuids()
 
 
 def matching(patterns):
@@ -69,6 +72,18 @@ def many():
                               for number in range(400))
         times.append((once(decided, index.count, 'rocon:/*/' + request)[0], request))
     return in_milliseconds('count among 400 hard patterns', *max(times), 1500)
+
+
+def sorted_uuids():
+    """A great many names that have nothing in common, in lists as long as those of an index."""
+    random = Random(3)
+    lists = [sorted('u%032x' % random.getrandbits(128) for _ in range(1200)) for _ in range(100)]
+    times = []
+    for pattern in ('u[0-9a-f]*(17|23|45|89)[0-9a-f]*', '[a-z]([0-9a-f]{8})*'):
+        matches = read(pattern).matches_in_order()
+        seconds = min(once(lambda: list(map(matches, lists)))[0] for _ in range(3))   # noqa: B023
+        times.append((seconds / 120000 * 1e6, pattern))
+    return in_milliseconds('match a million uuids', *max(times), None)
 
 
 def decided(ask, *args):

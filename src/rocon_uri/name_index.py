@@ -1,21 +1,22 @@
 """
 Resources by their names, so that a request is not compared with each name.
 
-A sorted order is built when a request first needs it: of names for a literal name or a pattern with
-a prefix, of reversed names for a pattern with a suffix. Few resources have a pattern themselves;
-each distinct pattern is compared once.
+A dict finds a literal name. For patterns a sorted order is built when a request first needs it: of
+names for a prefix, of reversed names for a suffix. Few resources have a pattern themselves; each
+distinct pattern is compared once.
 """
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
-from itertools import compress
+from functools import partial
+from itertools import chain, compress
+from operator import itemgetter
 
 from rocon_uri.exceptions import PatternTooComplex
 from rocon_uri.regular.budget import REQUEST_WORK_LIMIT, WORK_LIMIT, Budget
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Collection, Dict, List, Optional, Set, Tuple
+    from typing import Callable, Collection, Dict, Iterable, Iterator, List, Optional, Set, Tuple
     from rocon_uri.name_pattern import NamePattern
     from rocon_uri.uri import RoconURI
     Undecided = List[Tuple[NamePattern, Set[int]]]
@@ -25,6 +26,7 @@ __all__ = ['NameIndex', 'NameRequest']
 _AFTER_NAMES = '\x7f'       # greater than any character of a name
 _LITTLE_WORK = WORK_LIMIT // 200        # 0.3 ms: most comparisons take less
 _CHANGES_LIMIT = 100        # after more changes between two requests, sorting again is cheaper
+_reversed: Callable[[str], str] = itemgetter(slice(None, None, -1))
 
 
 class NameRequest:
@@ -66,9 +68,9 @@ class NameRequest:
 
 class NameIndex:
     """
-    Numbered resources, found by their name.
+    Numbered resources that differ in nothing but name and app, found by their names.
 
-    ``resources`` has them all by number; it changes by `add` and `discard` only.
+    Iteration gives the numbers.
 
     >>> from rocon_uri import name_pattern, parse
     >>> names = NameIndex()
@@ -78,34 +80,56 @@ class NameIndex:
     ([1], [])
     """
 
-    __slots__ = ('resources', '_patterned', '_orders', '_changes')
+    __slots__ = ('_named', '_namesakes', '_patterned', '_orders', '_size', '_changes')
 
     def __init__(self) -> None:
-        self.resources: Dict[int, RoconURI] = {}
+        self._named: Dict[str, int] = {}                # by literal name
+        self._namesakes: Dict[str, List[int]] = {}      # the others with the same name
         self._patterned: Dict[NamePattern, Set[int]] = {}
-        self._orders: Dict[bool, _Order] = {}       # by whether names are read backwards
+        self._orders: Dict[Callable[[str], str], _Order] = {}   # by the key
+        self._size = 0
         self._changes = 0       # since the last request
 
-    def add(self, number: int, uri: RoconURI) -> None:
-        """Add a resource, whose number is larger than all numbers so far."""
-        self.resources[number] = uri
-        if uri.name_pattern is None:
-            for order in self._orders_to_change():
-                order.add(uri.name_text, number)
-        else:
-            self._patterned.setdefault(uri.name_pattern, set()).add(number)
+    def __len__(self) -> int:
+        return self._size
 
-    def discard(self, number: int) -> None:
-        """Remove a resource."""
-        uri = self.resources.pop(number)
-        if uri.name_pattern is None:
+    def __iter__(self) -> Iterator[int]:
+        return chain(self._named.values(), *self._namesakes.values(), *self._patterned.values())
+
+    def add(self, number: int, uri: RoconURI) -> None:
+        """Add a resource that is not there yet."""
+        self._size += 1
+        name = uri.name_text
+        if uri.name_pattern is not None:
+            self._patterned.setdefault(uri.name_pattern, set()).add(number)
+        elif self._named.setdefault(name, number) == number:
             for order in self._orders_to_change():
-                order.discard(uri.name_text, number)
+                order.add(name)
         else:
+            self._namesakes.setdefault(name, []).append(number)
+
+    def discard(self, number: int, uri: RoconURI) -> None:
+        """Remove a resource that is there."""
+        self._size -= 1
+        name = uri.name_text
+        if uri.name_pattern is not None:
             numbers = self._patterned[uri.name_pattern]
             numbers.remove(number)
             if not numbers:
                 del self._patterned[uri.name_pattern]
+            return
+        namesakes = self._namesakes.get(name)
+        if namesakes is None:
+            del self._named[name]
+            for order in self._orders_to_change():
+                order.discard(name)
+            return
+        if self._named[name] == number:
+            self._named[name] = namesakes.pop()
+        else:
+            namesakes.remove(number)
+        if not namesakes:
+            del self._namesakes[name]
 
     def _orders_to_change(self) -> Collection[_Order]:
         self._changes += 1
@@ -122,7 +146,10 @@ class NameIndex:
             no particular order, and the patterns that take more than a little work to compare
             with the numbers of those that have them
         """
-        found = self._literal(request)
+        names = list(self._names(request))
+        found = list(map(self._named.__getitem__, names))
+        if self._namesakes:
+            found += chain.from_iterable(self._namesakes.get(name, ()) for name in names)
         undecided: Undecided = []
         for pattern, numbers in self._patterned.items():
             verdict = request.intersects(pattern, _LITTLE_WORK)
@@ -132,60 +159,56 @@ class NameIndex:
                 undecided.append((pattern, numbers))
         return found, undecided
 
-    def _literal(self, request: NameRequest) -> List[int]:
-        """The resources with a literal name that the request matches."""
+    def _names(self, request: NameRequest) -> Iterable[str]:
+        """The literal names that a request matches."""
         pattern, prefix, suffix = request.pattern, request.pattern.prefix, request.pattern.suffix
         if pattern.literal is not None:
-            return self._order(False).equal_to(prefix)
-        in_order = True
+            return [prefix] if prefix in self._named else []
         names: List[str] = []
-        numbers: List[int] = []
+        matches = request.matches_in_order
         if prefix or not suffix:
-            names, numbers = self._order(False).starting_with(prefix)
-        if suffix and (len(numbers) > 1 or not prefix):
-            reversed_names, ending = self._order(True).starting_with(suffix[::-1])
-            if not prefix or len(ending) < len(numbers):
-                names, numbers = [name[::-1] for name in reversed_names], ending
-                in_order = False
+            names = self._order(str).starting_with(prefix)
+        if suffix and (len(names) > 1 or not prefix):
+            ending = self._order(_reversed).starting_with(suffix[::-1])
+            if not prefix or len(ending) < len(names):
+                names, matches = ending, partial(map, pattern.matches)
         if pattern.text in (prefix + '*', '*' + suffix):
-            return numbers
-        return list(compress(numbers, request.matches_in_order(names) if in_order
-                             else map(pattern.matches, names)))
+            return names
+        return compress(names, matches(names))
 
-    def _order(self, backwards: bool) -> _Order:
+    def _order(self, key: Callable[[str], str]) -> _Order:
         self._changes = 0
-        if backwards not in self._orders:
-            self._orders[backwards] = _Order(self.resources, backwards)
-        return self._orders[backwards]
+        if key not in self._orders:
+            self._orders[key] = _Order(self._named, key)
+        return self._orders[key]
 
 
 class _Order:
-    """The literal names, or these reversed, in order with their numbers; equal ones by number."""
+    """Names in the order of their keys."""
 
-    __slots__ = ('_direction', '_keys', '_numbers')
+    __slots__ = ('_key', '_names')
 
-    def __init__(self, resources: Dict[int, RoconURI], backwards: bool) -> None:
-        self._direction = slice(None, None, -1 if backwards else 1)
-        pairs = sorted((uri.name_text[self._direction], number)
-                       for number, uri in resources.items() if uri.name_pattern is None)
-        self._keys = [key for key, _ in pairs]
-        self._numbers = [number for _, number in pairs]
+    def __init__(self, names: Iterable[str], key: Callable[[str], str]) -> None:
+        self._key = key
+        self._names = sorted(names, key=key)
 
-    def add(self, name: str, number: int) -> None:
-        key = name[self._direction]
-        index = bisect_right(self._keys, key)
-        self._keys.insert(index, key)
-        self._numbers.insert(index, number)
+    def add(self, name: str) -> None:
+        self._names.insert(self._place(self._key(name)), name)
 
-    def discard(self, name: str, number: int) -> None:
-        index = self._numbers.index(number, bisect_left(self._keys, name[self._direction]))
-        del self._keys[index], self._numbers[index]
+    def discard(self, name: str) -> None:
+        del self._names[self._place(self._key(name))]
 
-    def equal_to(self, key: str) -> List[int]:
-        start = bisect_left(self._keys, key)
-        return self._numbers[start:bisect_right(self._keys, key, start)]
+    def starting_with(self, start: str) -> List[str]:
+        """The names whose key starts with a text."""
+        return self._names[self._place(start):self._place(start + _AFTER_NAMES)]
 
-    def starting_with(self, start: str) -> Tuple[List[str], List[int]]:
-        first = bisect_left(self._keys, start)
-        last = bisect_left(self._keys, start + _AFTER_NAMES, first)
-        return self._keys[first:last], self._numbers[first:last]
+    def _place(self, key: str) -> int:
+        """As `bisect.bisect_left`, which takes a key from Python 3.10 on only."""
+        low, high = 0, len(self._names)
+        while low < high:
+            middle = (low + high) // 2
+            if self._key(self._names[middle]) < key:
+                low = middle + 1
+            else:
+                high = middle
+        return low

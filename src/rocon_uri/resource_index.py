@@ -15,14 +15,14 @@ from rocon_uri.uri import RoconURI, aligned, is_compatible, parse, with_any_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import (Any, Collection, Dict, Iterable, Iterator, List, Optional, Tuple, Type,
-                        Union)
+    from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Type, Union
     from rocon_uri.field import ValuesField
     from rocon_uri.name_pattern import NamePattern
     from rocon_uri.vocabulary import Vocabulary
     Resource = Union[str, RoconURI]
     KindKey = Tuple[ValuesField, ValuesField, ValuesField, str, Vocabulary]
     Resources = MutableMapping[RoconURI, Any]
+    Entries = Union[Mapping[Any, Any], Iterable[Resource]]
 else:
     Resources = MutableMapping
 
@@ -39,8 +39,8 @@ class ResourceIndex(Resources):
 
     A request is str or RoconURI too, and matches the resources that `is_compatible` accepts for
     it. An answer takes time in proportion to its length, not to the number of resources; only a
-    pattern with neither prefix nor suffix is matched against all names. What requests for names
-    need is built by the first of them.
+    pattern with neither prefix nor suffix is matched against all names. The order of names that
+    patterns need is built by the first request with one.
 
     :param resources: a mapping from resources to payloads, or an iterable of resources, whose
         payload is then None
@@ -51,7 +51,7 @@ class ResourceIndex(Resources):
     (['bob', 'alice'], 2)
     """
 
-    def __init__(self, resources: Union[Mapping[Any, Any], Iterable[Resource]] = ()) -> None:
+    def __init__(self, resources: Entries = ()) -> None:
         self.clear()
         if isinstance(resources, Mapping):
             self.update(resources)
@@ -89,8 +89,7 @@ class ResourceIndex(Resources):
         else:
             self._payloads[number] = payload
 
-    def add_all(self, resources: Union[Mapping[Any, Any], Iterable[Resource]]
-                ) -> List[RoconURIValueError]:
+    def add_all(self, resources: Entries) -> List[RoconURIValueError]:
         """
         Add many resources; a text that is not legal costs only itself.
 
@@ -172,7 +171,7 @@ class ResourceIndex(Resources):
         """
         return any(self._matches(parse(request)))
 
-    def _matches(self, request: RoconURI) -> Iterator[Collection[int]]:
+    def _matches(self, request: RoconURI) -> Iterator[Union[List[int], NameIndex]]:
         """
         The numbers of those that match, kind by kind; then an error if some are undecided.
 
@@ -188,13 +187,13 @@ class ResourceIndex(Resources):
                 try:
                     kind, requested = aligned(kind, asked)
                 except UnregisteredValue:       # is_compatible accepts it beside four stars
-                    yield [number for number, resource in names.resources.items()
-                           if is_compatible(resource, request)]
+                    yield [number for number in names
+                           if is_compatible(self._resources[number], request)]
                     continue
             if not is_compatible(kind, requested):
                 continue
             if name.pattern.is_any:
-                yield names.resources
+                yield names
             else:
                 numbers, undecided = names.numbers(name)
                 for pattern, patterned in undecided:
@@ -220,10 +219,11 @@ class ResourceIndex(Resources):
         uri = parse(uri)
         number = self._numbers.pop(uri)
         self._payloads.pop(number, None)
-        key = _kind_key(self._resources.pop(number))    # uri may be of another vocabulary
+        uri = self._resources.pop(number)       # an equal one, perhaps of another vocabulary
+        key = _kind_key(uri)
         _, names = self._kinds[key]
-        names.discard(number)
-        if not names.resources:
+        names.discard(number, uri)
+        if not names:
             del self._kinds[key]
 
     def popitem(self) -> Tuple[RoconURI, Any]:
