@@ -14,8 +14,9 @@ PAGES = [ROOT / 'README.md', *sorted((ROOT / 'doc').glob('*.rst'))]
 def commands():
     """Each command shown on a page, with the output below it."""
     for page in PAGES:
-        for match in re.finditer(r'^( +)\$ rosrun rocon_uri rocon_uri (.*)\n((?:\1(?!\$).*\n|\n)*)',
-                                 page.read_text(encoding='utf-8'), re.MULTILINE):
+        for match in re.finditer(
+                r'^( +)\$ (?:rosrun rocon_uri |scripts/)rocon_uri (.*)\n((?:\1(?!\$).*\n|\n)*)',
+                page.read_text(encoding='utf-8'), re.MULTILINE):
             indent, command, output = match.groups()
             output = re.sub('^' + indent, '', output, flags=re.MULTILINE)
             yield pytest.param(command, output.strip('\n'), id='%s: %s' % (page.name, command))
