@@ -11,8 +11,9 @@ from typing import List, Optional
 
 __all__ = ['Server', 'find_binaries']
 
-# Ends with whoever holds the other end of its standard input, however that one ends.
-_GUARD = '"$@" </dev/null & read line; kill -INT $!; wait $!'
+# Ends with whoever holds the other end of its standard input, however that one ends; without
+# writing all to the disk, as after a crash.
+_GUARD = '"$@" </dev/null & read line; kill -QUIT $!; wait $!'
 
 
 def find_binaries() -> Optional[str]:

@@ -363,7 +363,12 @@ class TestTables:
         with pytest.raises(DatabaseError, match='of version 99.*up to %d' % VERSION):
             ResourceDatabase(engine)
 
-    def test_where_none_are_to_be_made(self, engine):
+    def test_where_none_are_to_be_made(self, engine, tmp_path):
+        if engine.dialect.name == 'sqlite':
+            with pytest.raises(DatabaseError, match='No such file'):
+                ResourceDatabase(engine, create=False)
+            assert not list(tmp_path.iterdir())
+            do(engine, 'CREATE TABLE theirs (number INTEGER)')
         with pytest.raises(DatabaseError, match='no tables of resources'):
             ResourceDatabase(engine, create=False)
         ResourceDatabase(engine)
