@@ -24,7 +24,7 @@ from rocon_uri.sources.wording import quoted
 from rocon_uri.uri import RoconURI, parse
 from rocon_uri.vocabulary import Vocabulary
 
-__all__ = ['REASON_IDS', 'App', 'Reason', 'ReasonKind', 'Verdict', 'runnable']
+__all__ = ['REASON_IDS', 'App', 'Reason', 'ReasonKind', 'Verdict', 'platform_uri', 'runnable']
 
 #: Either form of an app.
 App = Union[Rapp, AppFile]
@@ -150,6 +150,27 @@ def runnable(app: App, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
                               ReasonKind.DEPENDENCY, fault.kind.value, fault=fault)
                        for fault in plan.faults))
     return Verdict(app, tuple(reason for reason in reasons if reason.id not in ignore), plan)
+
+
+def platform_uri(app: App, vocabulary: Vocabulary) -> Optional[RoconURI]:
+    """
+    What an app runs on, as a URI.
+
+    :param app: `Rapp` or `AppFile`
+    :param Vocabulary vocabulary: what it is read with
+    :returns: RoconURI; None if the app has none that is legal, or one that is compared as text
+
+    >>> from rocon_uri.apps.rapps import rapp_from_string
+    >>> rapp = rapp_from_string('compatibility: rocon:/pr2', 'ours/dance')
+    >>> str(platform_uri(rapp, Vocabulary.bundled()))
+    'rocon:/pr2/*/*/*'
+    """
+    if app.compatibility is None or isinstance(app, AppFile) and not app.is_registered(vocabulary):
+        return None
+    try:
+        return parse(app.compatibility, vocabulary)
+    except RoconURIValueError:
+        return None
 
 
 def _rapp_reasons(rapp: Rapp, robot: Union[str, RoconURI], launch_files: LaunchFiles

@@ -6,6 +6,7 @@ Examples:
   rocon_uri apps --robot rocon:/turtlebot2/bob/noetic/focal --all
   rocon_uri apps cafe_rapps/greet --robot rocon:/turtlebot2 --defaults defaults.yaml
   rocon_uri apps --all --ignore launch-missing
+  rocon_uri apps --html fleet.html --robots-in fleet.txt
 
 Reads all rapps, all .app files of app_manager and all capability specs that the
 packages below PATH export, and assumes that the robot has their providers. An app
@@ -18,6 +19,9 @@ as text. Each reason ends with its ID, which --ignore takes.
 For each NAME prints whether the robot can run it, all that was judged, the
 providers that start for it, and the names in each capability: what the interface
 calls them, and what the robot and the app call them where that differs.
+
+With --html, FILE becomes a page that filters, sorts and has the reasons behind each
+cell. It needs no network. Nothing else is printed.
 
 Exit status: 0 if an app runs, or each NAME does; 1 if not; 2 if the robot, a NAME,
 a folder or the FILE was bad, though the rest is judged, even for a robot that is
@@ -74,6 +78,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--ignore', metavar='ID', type=_reason_id, action='append', default=[],
                         help='leave reasons of this kind out, for example if apps are '
                              'installed elsewhere (may be repeated)')
+    parser.add_argument('--html', metavar='FILE',
+                        help='write a page for a browser: robots by apps, with all reasons')
+    parser.add_argument('--robots-in', metavar='FILE',
+                        help='the robots of that page, one URI a line (default: the --robot)')
     add_running(parser, 'also which of the capabilities that an app requires run, and by which '
                         'provider')
 
@@ -92,8 +100,16 @@ def main(args: argparse.Namespace) -> int:
     report, exported = workspace(args)
     apps = named_apps(args.names, exported, report) if args.names else list(exported.apps())
     mention_faults(args, report, exported, _asked_for(args.names, apps, exported))
-    robot = read_robot(args.robot, exported.vocabulary, report)
+    robot = None
+    if args.html is None:
+        robot = read_robot(args.robot, exported.vocabulary, report)
     defaults = read_defaults(args.defaults, report)
+    if args.html is not None:
+        from rocon_uri.cli.app_report import write_app_report
+        found = write_app_report(args, apps, exported, defaults, report)
+        if args.json:
+            print_json({'robot': None, 'apps': [], 'errors': report.errors})
+        return report.status or (0 if found else 1)
     from rocon_uri.apps.rapps import runnable    # here, since it loads YAML
     running = what_runs(args, report)
     verdicts = [] if robot is None else [

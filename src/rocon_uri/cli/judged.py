@@ -39,16 +39,17 @@ def named_apps(names: Sequence[str], exported: Workspace, report: PackageReport)
 
 
 def read_robot(text: Optional[str], vocabulary: Vocabulary,
-               report: PackageReport) -> Optional[GivenURI]:
+               report: PackageReport, file: Optional[str] = None,
+               line: Optional[int] = None) -> Optional[GivenURI]:
     """The robot; one that is not registered is reported, and may run some apps nevertheless."""
     if text is None:
         text = generate_platform_rocon_uri(default_robot_type, default_robot_name())
     try:
-        return GivenURI(parse(text, vocabulary), text)
+        return GivenURI(parse(text, vocabulary), text, file, line)
     except RoconURIValueError as error:
-        report.bad_uri(error)
+        report.bad_uri(error, file, line)
     try:
-        return GivenURI(parse(text, vocabulary.opened()), text)
+        return GivenURI(parse(text, vocabulary.opened()), text, file, line)
     except RoconURIValueError:
         return None
 

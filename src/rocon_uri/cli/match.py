@@ -4,6 +4,7 @@ Find the resources that requests are compatible with.
 Examples:
   rocon_uri match 'rocon:/robot/*/ros' --in fleet.txt
   rocon_uri match --matrix --requests-in apps.txt --in fleet.txt
+  rocon_uri match --matrix --requests-in apps.txt --in fleet.txt --html fleet.html
   rocon_uri match --why 'rocon:/robot/*/ros' rocon:/pr2/bob/noetic
   rocon_uri match --in fleet.txt --into sqlite:///fleet.db
   rocon_uri match 'rocon:/robot/*/ros' --in sqlite:///fleet.db
@@ -14,10 +15,11 @@ lines have is reported once. Standard input is -.
 Prints the compatible resources as written in FILE, one a line; if there are several
 requests, the app or the text of the request comes first. With --matrix prints every
 resource, after a column for each request: x if it fits, . if it does not, ? for
-name patterns that are too complex to compare. If nothing is found, stderr names
-the nearest resource and the fields that exclude it. With --why, says what check
-says about REQUEST and one URI. With --into, stores the URIs of FILE in a database
-and prints nothing.
+name patterns that are too complex to compare. With --html, FILE becomes a page for
+a browser, which filters, sorts and says for each pair which field does not fit. If
+nothing is found, stderr names the nearest resource and the fields that exclude it.
+With --why, says what check says about REQUEST and one URI. With --into, stores the
+URIs of FILE in a database and prints nothing.
 
 URL is a database, sqlite:///PATH or postgresql://USER@HOST/NAME. Others on this
 machine can see a password in an argument; PostgreSQL reads ~/.pgpass as well.
@@ -39,10 +41,11 @@ from itertools import chain, islice
 
 from rocon_uri.cli import check
 from rocon_uri.cli.databases import is_url, open_fleet
-from rocon_uri.cli.display import painter
+from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.given import GivenURI, Report, say, shown_name
+from rocon_uri.cli.matrix import print_matrix, print_table, write_page
 from rocon_uri.cli.progress import beside_progress
-from rocon_uri.compatibility import LEGEND, MARKS, UNDECIDED, explain
+from rocon_uri.compatibility import explain
 from rocon_uri.exceptions import PatternTooComplex
 from rocon_uri.sources.wording import near_misses, quoted
 from rocon_uri.uri import RoconURI, is_compatible, with_any_name
@@ -72,6 +75,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--why', action='store_true',
                         help='compare a REQUEST with a URI given after it, as check does')
     parser.add_argument('--matrix', action='store_true', help='show requests against resources')
+    parser.add_argument('--format', choices=('text', 'csv', 'tsv'), default='text',
+                        help='how the matrix is printed (default: text)')
+    parser.add_argument('--html', metavar='FILE',
+                        help='write the matrix as a page that filters, sorts and says why')
 
 
 def main(args: argparse.Namespace) -> int:
@@ -96,10 +103,17 @@ def main(args: argparse.Namespace) -> int:
         only = len(requests) == 1 and not args.matrix
         matches.path = fleet.name if fleet else ''
         matches.batches = fleet.lines(requests[0].uri if only else RoconURI()) if fleet else []
-    if args.json:
+    if args.html is not None:
+        write_page(matches, args.html, report)
+        if args.json:
+            print_json({'requests': [request.as_json() for request in requests], 'resources': [],
+                        'errors': report.errors})
+    elif args.json:
         _print_json(matches, report)
+    elif args.matrix and args.format != 'text':
+        print_table(matches, args.format)
     elif args.matrix:
-        _print_matrix(matches)
+        print_matrix(matches)
     elif args.requests_in is None and len(args.requests) == 1:
         write = sys.stdout.write
         for (_, text, _), _ in matches:
@@ -117,6 +131,8 @@ def _wrong_use(args: argparse.Namespace) -> str:
         if len(args.requests) == 2 and args.requests_in is args.resources_in is args.into is None:
             return ''
         return '--why takes a REQUEST and a URI to compare it with, and no file'
+    if not args.matrix and (args.html is not None or args.format != 'text'):
+        return '--html and --format need --matrix'
     if args.resources_in is None:
         return 'the following arguments are required: --in'
     if args.into is not None:
@@ -281,17 +297,6 @@ def _print_pairs(matches: Matches) -> None:
         for label, verdict in zip(labels, verdicts):
             if verdict:
                 write(label + text + '\n')
-
-
-def _print_matrix(matches: Matches) -> None:
-    paint = painter()
-    print(paint(LEGEND + UNDECIDED, 'faint'))
-    for index, request in enumerate(matches.requests):
-        print('| ' * index + paint(request.label, 'bold'))
-    marks = {fits: paint(mark, style)
-             for (fits, mark), style in zip(MARKS.items(), ('green', 'faint', 'red'))}
-    for (_, text, _), verdicts in matches:
-        print('%s  %s' % (' '.join(marks[verdict] for verdict in verdicts), text))
 
 
 def _print_json(matches: Matches, report: Report) -> None:
