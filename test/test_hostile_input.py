@@ -2,7 +2,9 @@
 from __future__ import annotations
 
 import itertools
+import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -33,6 +35,8 @@ INTERFACE = 'name: %s\nspec_version: 1\nspec_type: interface\n'
 PROVIDER = ('name: camera\nspec_version: 1\nspec_type: provider\nimplements: good/Camera\n'
             'launch_file: %s\n')
 LOOK = '''\
+display: Look
+description: It looks
 compatibility: rocon:/our_robot
 launch: look.launch
 required_capabilities:
@@ -196,19 +200,23 @@ def check_command(workspace, run=rocon_uri):
 
     Whatever is wrong, the good package is answered for.
 
-    :returns: (what check finds, what apps complains of, what match warns of)
+    :returns: (what check finds, without the ids, what apps complains of, what match warns of)
     """
     at = str(workspace)
     checked = run('specs', 'check', at)
-    apps = run('apps', '--robot', 'rocon:/our_robot', '--all', '--package-path', at)
+    asked = 'apps', '--robot', 'rocon:/our_robot', '--all', '--package-path', at
+    apps = run(*asked)
+    complaints = [error['message'] for error in json.loads(run(*asked, '--json').stdout)['errors']]
     match = run('match', 'rocon:/our_robot', '--in', workspace / 'fleet.txt', ROS_PACKAGE_PATH=at)
     assert not any(at + '/good' in line for line in checked.stdout.splitlines())
     assert checked.returncode == (1 if ': error: ' in checked.stdout else 0)
-    assert '  good/look\n      with good/camera\n' in apps.stdout
+    assert re.search('  good/look  Look: It looks\n      in .*\n      with good/camera\n',
+                     apps.stdout)
+    assert bool(complaints) == (': rocon_uri specs check' in apps.stderr)
     assert (match.returncode, match.stdout) == (0, 'rocon:/our_robot/bob\n')
     assert 'Traceback' not in checked.stderr + apps.stderr + match.stderr
-    return tuple([line.replace(at + '/', '') for line in text.splitlines()]
-                 for text in (checked.stdout, apps.stderr, match.stderr))
+    return tuple([re.sub(r' \[[a-z-]+\]$', '', line.replace(at + '/', '')) for line in lines]
+                 for lines in (checked.stdout.splitlines(), complaints, match.stderr.splitlines()))
 
 
 @pytest.mark.parametrize('make, finding, reason', UNREADABLE)
@@ -293,20 +301,21 @@ def test_a_manifest_of_entities_of_entities(workspace):
 def test_a_launch_file_outside_the_package(workspace, path):
     add_package(workspace, 'bad', {'capability_provider': 'eye.yaml', 'rocon_app': 'peep.rapp'},
                 eye_yaml=(PROVIDER % path).replace('name: camera', 'name: eye'),
-                peep_rapp='compatibility: rocon:/our_robot\nlaunch: %s\n' % path)
+                peep_rapp=LOOK.replace('look.launch', path))
     finding = "error: launch file '%s' is outside the package" % path
     assert [str(found).replace(str(workspace) + '/', '')
             for found in check_packages([str(workspace)])] == [
-        'bad/eye.yaml:5:14: ' + finding, 'bad/peep.rapp:2:9: ' + finding]
+        'bad/eye.yaml:5:14: %s [launch-outside]' % finding,
+        'bad/peep.rapp:4:9: %s [launch-outside]' % finding]
 
 
 def test_the_command_says_what_is_outside_the_package(workspace):
     add_package(workspace, 'bad', {'rocon_app': 'peep.rapp', 'rules': '../good/robots.yaml'},
-                peep_rapp='compatibility: rocon:/our_robot\nlaunch: ../../../etc/passwd\n')
+                peep_rapp=LOOK.replace('look.launch', '../../../etc/passwd'))
     findings, _, _ = check_command(workspace)
     assert findings == [
         "bad/package.xml:9:5: error: exported file './../good/robots.yaml' is outside the package",
-        "bad/peep.rapp:2:9: error: launch file '../../../etc/passwd' is outside the package"]
+        "bad/peep.rapp:4:9: error: launch file '../../../etc/passwd' is outside the package"]
 
 
 @pytest.mark.parametrize('rules, place, problem', [

@@ -107,6 +107,8 @@ def read_file(path: Union[str, PathLike[str]]) -> bytes:
         descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOCTTY)
         try:
             status = os.fstat(descriptor)
+            if stat.S_ISDIR(status.st_mode):
+                raise OSError(errno.EISDIR, 'Is a directory')
             if not stat.S_ISREG(status.st_mode):
                 raise OSError(errno.EINVAL, 'Not a regular file')
             # A read allocates what it is asked for, so ask for the size of the file, not for 1 MiB.
