@@ -9,7 +9,7 @@ from bond.msg import Status
 from bondpy import bondpy
 import rospy
 
-__all__ = ['Bonds', 'watch_from_now']
+__all__ = ['Bond', 'Bonds', 'watch_from_now']
 
 #: how many heartbeats to one client may be queued; all bonds share the topic, and in a shorter
 #: queue heartbeats of the same moment would push each other out
@@ -31,7 +31,7 @@ class Bonds:
         self._on_broken = on_broken
         self._later = later
         self._lock = threading.Lock()
-        self._bonds: Dict[str, bondpy.Bond] = {}
+        self._bonds: Dict[str, Bond] = {}
         # With these the topic stays connected, so that no bond has to wait for the master.
         self._publisher = rospy.Publisher(topic, Status, queue_size=_QUEUE_SIZE)
         self._subscriber = rospy.Subscriber(topic, Status, self._heard)
@@ -43,7 +43,7 @@ class Bonds:
 
     def start(self, bond_id: str) -> None:
         """Begin a bond of a new id."""
-        bond = bondpy.Bond(self._topic, bond_id, lambda: self._broken(bond_id))
+        bond = Bond(self._topic, bond_id, lambda: self._broken(bond_id))
         bond.set_formed_callback(lambda: watch_from_now(bond))
         self._publisher.impl.set_queue_size(_QUEUE_SIZE)    # the bond has set it to 1
         with self._lock:
@@ -72,6 +72,18 @@ class Bonds:
         self._on_broken(bond_id)
         if bond is not None:
             self._later(bond.shutdown)      # not now: the bond is in the middle of this call
+
+
+class Bond(bondpy.Bond):   # type: ignore[misc]
+    """A bond that also breaks when the master is gone."""
+
+    def _on_heartbeat_timeout(self) -> None:
+        try:
+            super()._on_heartbeat_timeout()
+        except (OSError, rospy.ROSException):   # whether timeouts are disabled cannot be asked
+            with self.lock:
+                self.sm.HeartbeatTimeout()
+            self._flush_pending_callbacks()
 
 
 def watch_from_now(bond: bondpy.Bond) -> None:

@@ -22,8 +22,7 @@ from typing import Callable, Dict, Iterable, List, Optional, Set
 
 import capabilities.needs_ros  # noqa: F401
 import rospy
-from bondpy import bondpy
-from capabilities.bonds import watch_from_now
+from capabilities.bonds import Bond, watch_from_now
 from capabilities.lost import LostWatch
 from capabilities.msg import CapabilityStatuses
 from capabilities.srv import EstablishBond, FreeCapability, UseCapability
@@ -104,7 +103,7 @@ class CapabilitiesClient:
         self._services: Dict[str, rospy.ServiceProxy] = {
             name: rospy.ServiceProxy('%s/%s' % (self._name, name), kind)
             for name, kind in _SERVICES.items()}
-        self._bond: Optional[bondpy.Bond] = None
+        self._bond: Optional[Bond] = None
         self._bond_id: Optional[str] = None
         self._strict = strict
         self._reconnect = reconnect
@@ -161,7 +160,7 @@ class CapabilitiesClient:
             if not self.wait_for_services(timeout, ['establish_bond']):
                 return None
             bond_id: str = self._call('establish_bond').bond_id
-            bond = bondpy.Bond('%s/bonds' % self._name, bond_id, lambda: self._broken(bond_id))
+            bond = Bond('%s/bonds' % self._name, bond_id, lambda: self._broken(bond_id))
             bond.set_formed_callback(lambda: watch_from_now(bond))
             bond.start()
             if not bond.wait_until_formed(None if timeout is None else rospy.Duration(timeout)):

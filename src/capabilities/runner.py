@@ -28,7 +28,9 @@ if __name__ == '__main__':      # before the imports below, which take half a se
     for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(_number, _on_signal)
     if sys.path[0] == os.path.dirname(os.path.abspath(__file__)):
-        del sys.path[0]         # the modules beside this one are not meant by ``import client``
+        import lossy_output     # type: ignore[import-not-found]
+        lossy_output.install()
+        del sys.path[0]         # no other module beside this one is meant by ``import client``
 
 import json                     # noqa: E402
 import logging                  # noqa: E402

@@ -19,6 +19,7 @@ import capabilities.needs_ros  # noqa: F401
 import rosgraph
 import rospy
 
+from capabilities import lossy_output
 from capabilities.bonds import Bonds
 from capabilities.catalogue import Catalogue, catalogue_of, load_specs, read_catalogue
 from capabilities.instances import (
@@ -240,6 +241,7 @@ def main(sysargv: Optional[List[str]] = None) -> int:
         known = os.environ.get('ROS_PACKAGE_PATH')
         os.environ['ROS_PACKAGE_PATH'] = os.pathsep.join(
             ([known] if known else []) + package_paths)
+    lossy_output.install()
     rospy.init_node('capability_server', disable_signals=True)
     _accept_many()
     try:
