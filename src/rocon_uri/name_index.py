@@ -16,10 +16,12 @@ from rocon_uri.regular.budget import REQUEST_WORK_LIMIT, WORK_LIMIT, Budget
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Callable, Collection, Dict, Iterable, Iterator, List, Optional, Set, Tuple
+    from typing import (Callable, Collection, Dict, Iterable, Iterator, List, Optional, Set, Tuple,
+                        TypeVar)
     from rocon_uri.name_pattern import NamePattern
     from rocon_uri.uri import RoconURI
     Undecided = List[Tuple[NamePattern, Set[int]]]
+    _Key = TypeVar('_Key')
 
 __all__ = ['NameIndex', 'NameRequest']
 
@@ -84,7 +86,7 @@ class NameIndex:
 
     def __init__(self) -> None:
         self._named: Dict[str, int] = {}                # by literal name
-        self._namesakes: Dict[str, List[int]] = {}      # the others with the same name
+        self._namesakes: Dict[str, Set[int]] = {}       # the others with the same name
         self._patterned: Dict[NamePattern, Set[int]] = {}
         self._orders: Dict[Callable[[str], str], _Order] = {}   # by the key
         self._size = 0
@@ -94,7 +96,8 @@ class NameIndex:
         return self._size
 
     def __iter__(self) -> Iterator[int]:
-        return chain(self._named.values(), *self._namesakes.values(), *self._patterned.values())
+        return chain(self._named.values(), chain.from_iterable(self._namesakes.values()),
+                     chain.from_iterable(self._patterned.values()))
 
     def add(self, number: int, uri: RoconURI) -> None:
         """Add a resource that is not there yet."""
@@ -106,30 +109,24 @@ class NameIndex:
             for order in self._orders_to_change():
                 order.add(name)
         else:
-            self._namesakes.setdefault(name, []).append(number)
+            self._namesakes.setdefault(name, set()).add(number)
 
     def discard(self, number: int, uri: RoconURI) -> None:
         """Remove a resource that is there."""
         self._size -= 1
         name = uri.name_text
         if uri.name_pattern is not None:
-            numbers = self._patterned[uri.name_pattern]
-            numbers.remove(number)
-            if not numbers:
-                del self._patterned[uri.name_pattern]
-            return
-        namesakes = self._namesakes.get(name)
-        if namesakes is None:
+            _remove(self._patterned, uri.name_pattern, number)
+        elif self._named[name] != number:
+            _remove(self._namesakes, name, number)
+        elif name in self._namesakes:
+            self._named[name] = self._namesakes[name].pop()
+            if not self._namesakes[name]:
+                del self._namesakes[name]
+        else:
             del self._named[name]
             for order in self._orders_to_change():
                 order.discard(name)
-            return
-        if self._named[name] == number:
-            self._named[name] = namesakes.pop()
-        else:
-            namesakes.remove(number)
-        if not namesakes:
-            del self._namesakes[name]
 
     def _orders_to_change(self) -> Collection[_Order]:
         self._changes += 1
@@ -181,6 +178,13 @@ class NameIndex:
         if key not in self._orders:
             self._orders[key] = _Order(self._named, key)
         return self._orders[key]
+
+
+def _remove(sets: Dict[_Key, Set[int]], key: _Key, number: int) -> None:
+    """Remove a number, and its set if that is empty then."""
+    sets[key].remove(number)
+    if not sets[key]:
+        del sets[key]
 
 
 class _Order:
