@@ -127,3 +127,4 @@ def test_a_connection_that_is_lost_meanwhile(postgresql, ask, tmp_path, monkeypa
     assert status == 2
     assert out.splitlines()[:1500] == ['rocon:/pr2/bob_%d/*/*' % number for number in range(1500)]
     assert errors.startswith('rocon_uri: postgresql:///fleet_')
+    assert len(errors.splitlines()) == 1

@@ -328,6 +328,22 @@ class TestSeveralProcesses:
             engine.dispose()
 
 
+def test_sqlite_looks_up_what_a_request_says(tmp_path):
+    engine = open_engine('sqlite:///%s' % (tmp_path / 'fleet.db'))
+    fleet = ResourceDatabase(engine)
+    fleet.add_all(TestAnswers.URIS)
+    for request in ('rocon:/pr2', 'rocon:/*/bob', 'rocon:/*/bob_*', 'rocon:/*/*_2',
+                    'rocon:/pr2/*_2', 'rocon:/pr2/bob_*/noetic', 'rocon:/*/bob_[0-9]+',
+                    'rocon:/kobuki/b*_2/*/linux', 'rocon:/*/[a-z]+_2'):
+        with fleet._asking(parse(request)) as (_, cursor, question):
+            cursor.execute('EXPLAIN QUERY PLAN ' + fleet._dialect.written(question.select()),
+                           question.parameters)
+            plan = [row[3] for row in cursor.fetchall()]
+        assert any('SEARCH' in step and 'resource' in step for step in plan), request
+        assert not any('SCAN' in step and 'resource' in step for step in plan), request
+    engine.dispose()
+
+
 class TestBatches:
     def test_the_error_says_how_many_are_in(self, fleet):
         def resources():
@@ -424,6 +440,11 @@ class TestLostConnections:
         engine = open_engine(self.url)
         yield ResourceDatabase(engine)
         engine.dispose()
+
+    @pytest.fixture(autouse=True)
+    def _says_it_by_the_error_only(self, caplog):
+        yield
+        assert not caplog.records
 
     @pytest.fixture
     def end_connections(self, postgresql):
