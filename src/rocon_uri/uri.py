@@ -265,7 +265,7 @@ def is_compatible(rocon_uri_a: Resource, rocon_uri_b: Resource) -> bool:
     """
     a, b = rocon_uri_a, rocon_uri_b
     if type(a) is not RoconURI or type(b) is not RoconURI or a.vocabulary is not b.vocabulary:
-        a, b = comparable(a, b)
+        a, b = _remembered(a, b) or comparable(a, b)
     if not (a.hardware_platform.mask & b.hardware_platform.mask
             and a.application_framework.mask & b.application_framework.mask
             and a.operating_system.mask & b.operating_system.mask):
@@ -274,13 +274,24 @@ def is_compatible(rocon_uri_a: Resource, rocon_uri_b: Resource) -> bool:
             x.intersects(y) for (_, x), (_, y) in zip(a.sets, b.sets))
     if a.concert_name and b.concert_name and a.concert_name != b.concert_name:
         return False
+    if a.name_text == b.name_text:
+        return True
     ours, theirs = a.name_pattern, b.name_pattern
     if ours is None:
-        return (a.name_text == b.name_text if theirs is None
-                else theirs is ANY or theirs.matches(a.name_text))
+        return theirs is not None and (theirs is ANY or theirs.matches(a.name_text))
     if ours is ANY or theirs is ANY:        # most requests leave the name open
         return True
     return ours.matches(b.name_text) if theirs is None else ours.intersects(theirs)
+
+
+def _remembered(a: Resource, b: Resource) -> Optional[Tuple[RoconURI, RoconURI]]:
+    """Two texts that were both read before; None for others. It takes a third of `comparable`."""
+    if type(a) is str and type(b) is str:
+        remembered = current().uris_read
+        first, second = remembered.get(a), remembered.get(b)
+        if first is not None and second is not None:
+            return first, second
+    return None
 
 
 def comparable(a: Resource, b: Resource) -> Tuple[RoconURI, RoconURI]:
