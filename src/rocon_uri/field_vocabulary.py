@@ -5,6 +5,8 @@ A group covers its members, at every depth.
 """
 from __future__ import annotations
 
+from itertools import accumulate
+
 from rocon_uri.sources.wording import quoted
 from rocon_uri.grammar import NAME_LIMIT
 from rocon_uri.sources.ros_names import is_legal_base_name
@@ -64,7 +66,7 @@ class FieldVocabulary:
     :param parents: mapping from each value and group, in order, to its group, or to None
     """
 
-    __slots__ = ('name', 'parents', '_children', '_bits')
+    __slots__ = ('name', 'parents', '_children', '_leaves', '_bits')
 
     def __init__(self, name: str, parents: Mapping[str, Optional[str]]) -> None:
         self.name = name
@@ -73,18 +75,26 @@ class FieldVocabulary:
         self._children: Dict[Optional[str], List[str]] = {None: []}
         for value, parent in self.parents.items():
             self._children.setdefault(parent, []).append(value)
-        leaves = (value for value in self.parents if value not in self._children)
-        self._bits = {value: bit for bit, value in enumerate(leaves)}
+        # Leaves are numbered in depth, so that the bits of a group follow one another. Its bits are
+        # the first one and the one after the last.
+        self._leaves: List[str] = []
+        self._bits: Dict[str, Tuple[int, int]] = {}
+        values = list(self)
+        for value in values:
+            self._bits[value] = len(self._leaves), len(self._leaves) + 1
+            if value not in self._children:
+                self._leaves.append(value)
+        for value in reversed(values):      # members before their group
+            if value in self._children:
+                self._bits[value] = (self._bits[value][0],
+                                     self._bits[self._children[value][-1]][1])
 
     def __contains__(self, value: object) -> bool:
         return value in self.parents
 
     def __iter__(self) -> Iterator[str]:
         """All values and groups, a group before its members."""
-        return self._below(None)
-
-    def _below(self, value: Optional[str]) -> Iterator[str]:
-        waiting = list(reversed(self._children.get(value, ())))
+        waiting = self._children[None][::-1]
         while waiting:
             below = waiting.pop()
             yield below
@@ -111,10 +121,8 @@ class FieldVocabulary:
         :returns: list of str, in the order of the vocabulary
         :raises KeyError: if it is not registered
         """
-        if value in self._bits:
-            return [value]
-        self.parents[value]
-        return [below for below in self._below(value) if below in self._bits]
+        first, end = self._bits[value]
+        return self._leaves[first:end]
 
     def mask(self, value: str) -> int:
         """
@@ -122,7 +130,8 @@ class FieldVocabulary:
 
         :raises KeyError: if it is not registered
         """
-        return sum(1 << self._bits[leaf] for leaf in self.leaves(value))
+        first, end = self._bits[value]
+        return (1 << end) - (1 << first)
 
     def covering(self, mask: int) -> List[str]:
         """
@@ -133,15 +142,17 @@ class FieldVocabulary:
         >>> systems.covering(systems.mask('ubuntu') & systems.mask('linux'))
         ['ubuntu']
         """
+        digits = format(mask, 'b')[::-1].ljust(len(self._leaves), '0')
+        counts = list(accumulate(map(int, digits), initial=0))      # of bits set below each bit
         found: List[str] = []
         waiting = self._children[None][::-1]
-        while waiting and mask:
+        while waiting:
             value = waiting.pop()
-            own = self.mask(value)
-            if own and not own & ~mask:
+            first, end = self._bits[value]
+            count = counts[end] - counts[first]
+            if count == end - first:
                 found.append(value)
-                mask &= ~own
-            elif own & mask:
+            elif count:
                 waiting.extend(reversed(self._children[value]))
         return found
 
