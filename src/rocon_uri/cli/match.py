@@ -37,7 +37,7 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
-from itertools import chain, islice
+from itertools import islice
 
 from rocon_uri.cli import check
 from rocon_uri.cli.databases import is_url, open_fleet
@@ -185,16 +185,16 @@ class Matches:
                     kind = kinds.get(key)
                     if kind is None:
                         kind = kinds[key] = _Kind(line, uris, nothing)
-                    if kind.verdicts is nothing and not every:
-                        continue
-                    verdicts = kind.verdicts or kind.verdicts_for(line)
-                    if verdicts is nothing and not every:
-                        continue
-                    if every or True in verdicts:
-                        self.found = self.found or True in verdicts
+                    verdicts = kind.verdicts
+                    if verdicts is None:
+                        verdicts = kind.verdicts_for(line)
+                        if None in verdicts:
+                            self.undecided.append((line, verdicts))
+                    if verdicts is not nothing and True in verdicts:
+                        self.found = True
                         yield line, verdicts
-                    if None in verdicts:
-                        self.undecided.append((line, verdicts))
+                    elif every:
+                        yield line, verdicts
         for (uri, text, number), verdicts in self.undecided:
             for request, verdict in zip(self.requests, verdicts):
                 if verdict is None:
@@ -236,41 +236,50 @@ class _Kind:
         self._nothing = nothing
         self._others: List[Line] = [line]       # some that no request is compatible with
         anyone = with_any_name(self.uri)
-        fitting = [(place, request) for place, request in enumerate(requests)
-                   if is_compatible(with_any_name(request), anyone)]
-        self._with_pattern = [(place, request) for place, request in fitting
-                              if request.name_pattern is not None]
-        self._with_name: Dict[str, List[Tuple[int, RoconURI]]] = {}
-        for place, request in fitting:
+        self._requests = [(place, request) for place, request in enumerate(requests)
+                          if is_compatible(with_any_name(request), anyone)]
+        self._patterns = [(place, request.name_pattern) for place, request in self._requests
+                          if request.name_pattern is not None]
+        self._places: Dict[str, List[int]] = {}     # of the requests for one name, by that name
+        for place, request in self._requests:
             if request.name_pattern is None:
-                self._with_name.setdefault(request.name_text, []).append((place, request))
+                self._places.setdefault(request.name_text, []).append(place)
         #: list of bool, what is said to each request of all of them; None if that needs the name
         self.verdicts: Optional[Verdicts] = None
-        if all(request.name_text == '*' for _, request in fitting):
-            places = {place for place, _ in fitting}
-            self.verdicts = (
-                [place in places for place in range(len(requests))] if fitting else nothing)
+        if not self._requests:
+            self.verdicts = nothing
+        elif all(request.name_text == '*' for _, request in self._requests):
+            self.verdicts = self._with(place for place, _ in self._requests)
 
     def verdicts_for(self, line: Line) -> Verdicts:
         """What is said of one of them to each request."""
         uri = line[0]
-        asked = self._with_pattern
-        if uri.name_pattern is not None:
-            asked = asked + list(chain.from_iterable(self._with_name.values()))
-        elif uri.name_text in self._with_name:
-            asked = asked + self._with_name[uri.name_text]
-        verdicts = self._nothing
-        for place, request in asked:
-            try:
-                verdict: Optional[bool] = is_compatible(request, uri)
-            except PatternTooComplex:
-                verdict = None
-            if verdict is not False:
-                if verdicts is self._nothing:
-                    verdicts = list(verdicts)
-                verdicts[place] = verdict
-        if verdicts is self._nothing and len(self._others) < _NAMES_COMPARED:
+        name, undecided = uri.name_text, []
+        if uri.name_pattern is None:
+            fitting = self._places.get(name, [])
+            for place, pattern in self._patterns:
+                if pattern.matches(name):
+                    fitting = [*fitting, place]
+        else:
+            fitting = []
+            for place, request in self._requests:
+                try:
+                    if is_compatible(request, uri):
+                        fitting.append(place)
+                except PatternTooComplex:
+                    undecided.append(place)
+        if fitting or undecided:
+            return self._with(fitting, undecided)
+        if len(self._others) < _NAMES_COMPARED:
             self._others.append(line)
+        return self._nothing
+
+    def _with(self, fitting: Iterable[int], undecided: Iterable[int] = ()) -> Verdicts:
+        verdicts: Verdicts = list(self._nothing)
+        for place in fitting:
+            verdicts[place] = True
+        for place in undecided:
+            verdicts[place] = None
         return verdicts
 
     def nearest(self, request: RoconURI) -> Line:
