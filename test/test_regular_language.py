@@ -27,7 +27,7 @@ from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError
 from rocon_uri.regular.budget import WORK_LIMIT
 from rocon_uri.regular.inclusion import Difference, includes
 from rocon_uri.regular.intersection import Intersection, common_name
-from rocon_uri.regular.language import Language, union
+from rocon_uri.regular.language import Language, Step, union
 from rocon_uri.regular.syntax import COUNT_LIMIT, DEPTH_LIMIT, SIZE_LIMIT, parse
 from rocon_uri.sources.ros_names import is_legal_base_name
 
@@ -392,6 +392,47 @@ def compare(one: str, other: str) -> None:
 @pytest.mark.parametrize('one, other', list(itertools.combinations(ACCEPTED, 2))[::4])
 def test_comparing_ends_within_the_work_that_is_allowed(one, other):
     compare(one, other)
+
+
+@pytest.fixture
+def steps(monkeypatch):
+    """The product states that a walk visits, one by one."""
+    made = []
+
+    class CountedStep(Step):
+        def __init__(self, *args):
+            made.append(args)
+            super().__init__(*args)
+    monkeypatch.setattr('rocon_uri.regular.intersection.Step', CountedStep)
+    monkeypatch.setattr('rocon_uri.regular.inclusion.Step', CountedStep)
+    return made
+
+
+@pytest.mark.parametrize('one, other', [
+    ('(ab)*a', '(ab)*b'), ('(a|b)*a(a|b){20}', '(a|b)*c'), ('(aa)+', 'a(aa)*'),
+    ('.*a.{30}', '.*b_?[cd]{31}'), ('(.{1,255}a){16}', '[b-z]+'), ('[a-c]x{200}', '[a-c]x{201}'),
+    ('(abc|bcd|cde){9}', '(abc|bcd|cde){8}')])
+def test_the_work_to_find_languages_disjoint_is_that_of_the_states_visited(steps, one, other):
+    product = Intersection(language(one), language(other))
+    assert product.shortest() is None
+    assert 35 * len(steps) <= product.work <= 60 * len(steps)
+
+
+@pytest.mark.parametrize('one, other', [
+    ('(ab)*a', 'a(ba)*'), ('(a|b)*a(a|b){8}', '[ab]+'), ('(aa)+', 'a(a)*'),
+    ('(a|b)*a[ab]{10}', '(b*a)+(a|b){10}'), ('(abc|bcd|cde){9}', '[a-e]{27}'),
+    ('[a-c]x{200}', '[a-c]x{200,201}'), ('[ab]{1,30}c', '(([ab]{1,5}){6}c|[ab]{1,31}c)')])
+def test_simulation_spares_the_walk_and_without_it_the_work_is_that_of_the_states_visited(
+        steps, monkeypatch, one, other):
+    product = Difference(language(one), language(other))
+    assert product.find() is None
+    assert len(steps) <= 3
+    assert product.work >= 100
+    steps.clear()
+    monkeypatch.setattr('rocon_uri.regular.inclusion._MOST_PAIRS', 0)
+    product = Difference(language(one), language(other))
+    assert product.find() is None
+    assert 37 * len(steps) <= product.work <= 105 * len(steps)
 
 
 @pytest.mark.parametrize('one, other', [
