@@ -190,6 +190,15 @@ def test_format_junit_has_a_test_for_each_file(check, workspace):
     assert any(float(case.get('time')) > 0 for case in suite)
 
 
+def test_a_report_is_xml_whatever_a_file_is_called(check, workspace):
+    (workspace / 'src/ours/a\x01\udcff.interactions').write_text('7')
+    for arguments in (['--format', 'junit'], ['--junit', 'report.xml']):
+        _, out, _ = check('src', '-q', *arguments)
+        text = out if arguments[0] == '--format' else (workspace / 'report.xml').read_text()
+        cases = ElementTree.fromstring(text.encode())
+        assert 'src/ours/a\\x01\\udcff.interactions' in [case.get('name') for case in cases]
+
+
 def sarif(check, *arguments):
     status, out, _ = check(*arguments, '--format', 'sarif')
     return json.loads(out)

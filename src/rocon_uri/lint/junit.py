@@ -5,6 +5,7 @@ from typing import Dict, List, Mapping, Sequence
 from xml.sax.saxutils import escape, quoteattr
 
 from rocon_uri.lint.finding import ERROR, Finding
+from rocon_uri.sources.wording import printable
 
 __all__ = ['junit_text']
 
@@ -37,7 +38,7 @@ a.rapp:3:9: error: no &lt;launch&gt; at its top [launch-no-launch]</failure>
         failures += bool(errors)
         text = escape('\n'.join(map(str, found)))
         cases.append('<testcase classname="rocon_uri_check" name=%s time="%.4f">' % (
-            quoteattr(path), files.get(path, 0)))
+            quoteattr(printable(path)), files.get(path, 0)))
         if errors:
             cases.append('<failure message="%d error%s" type="error">%s</failure>' % (
                 errors, '' if errors == 1 else 's', text))
