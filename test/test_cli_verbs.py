@@ -311,9 +311,10 @@ def test_a_line_longer_than_any_uri_is_one_line(line, complaint, ask, file_of):
     assert numbers == (['4'] if line[0] == '#' else ['2', '4'])
 
 
-def test_only_a_first_character_makes_a_comment(complaint, file_of):
-    robots = file_of('\ufeff# saved by an editor that marks its files', ' # no comment')
-    assert complaint('match', 'rocon:/', '--in', robots).startswith('%s:2: ' % robots)
+def test_a_comment_starts_with_a_hash_and_may_be_indented(complaint, file_of):
+    robots = file_of('\ufeff# saved by an editor that marks its files', ' # a comment',
+                     'rocon:/zork')
+    assert complaint('match', 'rocon:/', '--in', robots).startswith('%s:3: ' % robots)
 
 
 # -- fields, rules ---------------------------------------------------------------------------------

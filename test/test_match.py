@@ -221,3 +221,16 @@ def test_why_is_check(more, capsys):
 def test_why_takes_two_uris_and_match_a_file(arguments, capsys):
     assert main(['match', *arguments]) == 2
     assert capsys.readouterr().err.startswith('rocon_uri match: error: ')
+
+
+def test_resources_of_more_kinds_than_are_kept_are_found_all_the_same(
+        tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr('rocon_uri.cli.matches._KINDS_KEPT', 3)
+    lines = ['rocon:/%s/bob_%d' % (platform, number) for number in range(20)
+             for platform in ('pr2', 'kobuki', 'pr2|kobuki', 'robot', 'pc', 'tablet|pr2')]
+    path = tmp_path / 'fleet.txt'
+    path.write_text('\n'.join(lines))
+    for request in 'rocon:/pr2', 'rocon:/pr2/bob_1', 'rocon:/pr2/bob_1*':
+        main(['match', request, '--in', str(path)])
+        assert capsys.readouterr().out.splitlines() == [
+            line for line in lines if is_compatible(request, line)]
