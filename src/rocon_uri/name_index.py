@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     Undecided = List[Tuple[NamePattern, Set[int]]]
     _Key = TypeVar('_Key')
 
-__all__ = ['NameIndex', 'NameRequest']
+__all__ = ['LITTLE_WORK', 'NameIndex', 'NameRequest']
 
 _AFTER_NAMES = '\x7f'       # greater than any character of a name
-_LITTLE_WORK = WORK_LIMIT // 200        # 0.3 ms: most comparisons take less
+LITTLE_WORK = WORK_LIMIT // 200        # 0.3 ms: most comparisons take less
 _CHANGES_LIMIT = 100        # after more changes between two requests, sorting again is cheaper
 _reversed: Callable[[str], str] = itemgetter(slice(None, None, -1))
 
@@ -149,7 +149,7 @@ class NameIndex:
             found += chain.from_iterable(self._namesakes.get(name, ()) for name in names)
         undecided: Undecided = []
         for pattern, numbers in self._patterned.items():
-            verdict = request.intersects(pattern, _LITTLE_WORK)
+            verdict = request.intersects(pattern, LITTLE_WORK)
             if verdict:
                 found += numbers
             elif verdict is None:

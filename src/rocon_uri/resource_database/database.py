@@ -3,14 +3,10 @@ from __future__ import annotations
 
 import json
 from contextlib import contextmanager
-from functools import lru_cache
 from typing import TYPE_CHECKING, Dict, Iterator, List, Optional, Tuple, Union
 
 from sqlalchemy.pool import StaticPool
 
-from rocon_uri import name_pattern
-from rocon_uri.name_index import NameRequest
-from rocon_uri.name_pattern import NamePattern
 from rocon_uri.resource_database.engines import shown, transaction
 from rocon_uri.resource_database.functions import check_dialect
 from rocon_uri.resource_database.known import Known, read_resource, refreshed
@@ -28,11 +24,13 @@ if TYPE_CHECKING:
     from sqlalchemy.engine.interfaces import DBAPICursor
 
     from rocon_uri.resource_database.writing import Resources
+    from rocon_uri.vocabulary import Vocabulary
     Resource = Union[str, RoconURI]
 
 __all__ = ['ResourceDatabase']
 
 _ROWS_AT_ONCE = 2000    # that are fetched
+_QUESTIONS = 64         # that are remembered, since the same are asked again and again
 _DRIVERS = {'sqlite': 'pysqlite', 'postgresql': 'psycopg2'}
 
 
@@ -69,7 +67,8 @@ class ResourceDatabase:
                 engine.dialect.driver, _DRIVERS[engine.dialect.name]))
         self._engine = engine
         self._dialect = SQLite() if engine.dialect.name == 'sqlite' else PostgreSQL()
-        self._known: Optional[Known] = None
+        #: what is known, and what it makes of requests
+        self._state: Tuple[Optional[Known], Dict[Tuple[RoconURI, Vocabulary], Question]] = None, {}
         self._is_shared = isinstance(engine.pool, StaticPool)
         if engine.dialect.name == 'sqlite':
             prepare_file(engine, create)
@@ -209,9 +208,19 @@ class ResourceDatabase:
         """A transaction that sees one state of the database, and what to ask it."""
         with transaction(self._engine) as connection:
             cursor = self._dialect.begin_reading(connection)
-            self._known = known = refreshed(self._known, self._dialect, cursor)
-            yield connection, cursor, question(
-                request, known, self._dialect, _name_request(request.name_text))
+            known, questions = self._state
+            new = refreshed(known, self._dialect, cursor)
+            if new is not known:
+                known, questions = self._state = new, {}
+            key = request, request.vocabulary
+            asked = questions.get(key)
+            if asked is None:
+                asked = question(request, new, self._dialect)
+                if len(questions) >= _QUESTIONS:
+                    questions.clear()
+                if asked.undecided is None:     # else the next time there is a new budget for it
+                    questions[key] = asked
+            yield connection, cursor, asked
 
     def _undecided(self, cursor: DBAPICursor, asked: Question) -> List[RoconURI]:
         if asked.undecided is None:
@@ -249,17 +258,6 @@ class ResourceDatabase:
 
     def __repr__(self) -> str:
         return '<ResourceDatabase %s>' % shown(self._engine)
-
-
-def _name_request(name: str) -> NameRequest:
-    """What a request says of the name, with a budget of its own."""
-    return NameRequest(name_pattern.read(name), _verdicts(name))
-
-
-@lru_cache(64)
-def _verdicts(name: str) -> Dict[NamePattern, bool]:
-    """The verdicts of earlier requests with this name."""
-    return {}
 
 
 def _with_error_last(found: Iterator[RoconURI], request: RoconURI,

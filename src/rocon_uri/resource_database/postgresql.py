@@ -48,14 +48,15 @@ class PostgreSQL(Dialect):
         return cursor
 
     def kinds(self, numbers: List[int]) -> Condition:
-        return Condition('kind = ANY(%(kinds)s)', {'kinds': numbers})
+        return Condition('kind = ANY(%(kinds)s::integer[])', {'kinds': _array(numbers)})
 
     def pairs(self, pairs: List[Tuple[int, str]]) -> Condition:
         kinds, names = zip(*pairs)
         return Condition(
-            'rocon_uri_resource AS resource JOIN unnest(%(pair_kinds)s, %(pair_names)s) '
-            'AS pair (kind, name) ON resource.kind = pair.kind AND resource.name = pair.name',
-            {'pair_kinds': list(kinds), 'pair_names': list(names)})
+            "rocon_uri_resource AS resource JOIN unnest(%(pair_kinds)s::integer[], "
+            "string_to_array(%(pair_names)s, '/')) AS pair (kind, name) "
+            'ON resource.kind = pair.kind AND resource.name = pair.name',
+            {'pair_kinds': _array(kinds), 'pair_names': '/'.join(names)})
 
     def names(self, pattern: NamePattern, kinds: str, by_kind: bool) -> Condition:
         # These operators only the index of names in each kind has. The planner would take the other
@@ -95,3 +96,8 @@ class PostgreSQL(Dialect):
         arrays = ', '.join('%%(%s)s::%s[]' % pair for pair in zip(COLUMNS, _TYPES))
         cursor.execute('INSERT INTO rocon_uri_resource (%s) SELECT * FROM unnest(%s)'
                        % (', '.join(COLUMNS), arrays) + REPLACE, dict(columns, now=now))
+
+
+def _array(numbers: Iterable[int]) -> str:
+    """An array as one text, which takes a third of the time of one element each."""
+    return '{%s}' % ','.join(map(str, numbers))

@@ -1,14 +1,16 @@
 """From a request to the statement that answers it."""
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Callable, Collection, Dict, List, NamedTuple, Optional, Tuple
 
-from rocon_uri.name_index import NameRequest
+from rocon_uri.name_index import LITTLE_WORK, NameRequest
 from rocon_uri.resource_database.dialects import Condition
 from rocon_uri.resource_database.names import is_too_large
 from rocon_uri.uri import RoconURI
 
 if TYPE_CHECKING:
+    from rocon_uri.name_pattern import NamePattern
     from rocon_uri.resource_database.dialects import Dialect
     from rocon_uri.resource_database.known import Known
     Pairs = List[Tuple[int, str]]
@@ -48,14 +50,13 @@ class Question(NamedTuple):
         return ' UNION ALL '.join('SELECT %s %s' % (columns, part) for part in self.parts)
 
 
-def question(request: RoconURI, known: Known, dialect: Dialect, name: NameRequest) -> Question:
+def question(request: RoconURI, known: Known, dialect: Dialect) -> Question:
     """
     What to ask a database.
 
     :param RoconURI request: the request
     :param Known known: what is known of the database
     :param Dialect dialect: of the database
-    :param NameRequest name: what the request says of the name
     :returns: Question
     """
     fitting = known.kinds_that_fit(request)
@@ -63,6 +64,7 @@ def question(request: RoconURI, known: Known, dialect: Dialect, name: NameReques
         return Question([], {})
     kinds = Condition('', {}) if fitting is None else dialect.kinds(fitting)
     live = '(resource.expires IS NULL OR resource.expires > %s)' % dialect.now
+    name = NameRequest(request.name.pattern, _verdicts(request.name_text))
     if name.pattern.is_any:
         return Question([_where(kinds.text, live)], kinds.parameters)
     names = dialect.names(name.pattern, kinds.text,
@@ -86,12 +88,29 @@ def _where(*conditions: str) -> str:
 
 
 def _pairs(known: Known, allowed: Collection[int], name: NameRequest) -> Tuple[Pairs, Pairs]:
-    """The kinds and patterns of resources that match, and of those for which it is unknown."""
+    """
+    The kinds and patterns of resources that match, and of those for which it is unknown.
+
+    As in ResourceIndex, patterns that take more than a little work to compare come last.
+    """
     meeting: Pairs = []
-    unknown: Pairs = []
+    hard: List[Tuple[NamePattern, Pairs]] = []
     for pattern, kinds in known.patterns.items():
         pairs = [(kind, pattern.text) for kind in kinds if kind in allowed]
-        verdict = name.intersects(pattern) if pairs else False
+        verdict = name.intersects(pattern, LITTLE_WORK) if pairs else False
+        if verdict:
+            meeting += pairs
+        elif verdict is None:
+            hard.append((pattern, pairs))
+    unknown: Pairs = []
+    for pattern, pairs in hard:
+        verdict = name.intersects(pattern)
         if verdict is not False:
             (unknown if verdict is None else meeting).extend(pairs)
     return meeting, unknown
+
+
+@lru_cache(64)
+def _verdicts(name: str) -> Dict[NamePattern, bool]:
+    """What comparing a pattern came to in earlier requests with this name."""
+    return {}
