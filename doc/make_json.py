@@ -14,8 +14,8 @@ PAGE = Path(__file__).resolve().parent / 'json.rst'
 def json_page() -> str:
     """The text of the page."""
     lines = ['.. Written by make_json.py.', '', 'JSON for programs', '=================', '',
-             'With ``--json``, before or after the verb, a verb prints one JSON object. This is what '
-             '``rocon_uri', 'help json`` says of it.', '', '.. code-block:: text', '']
+             'With ``--json``, before or after the verb, a verb prints one JSON object. This is '
+             'what ``rocon_uri', 'help json`` says of it.', '', '.. code-block:: text', '']
     lines += [('   ' + line).rstrip() for line in json_forms(VERBS).splitlines()]
     return '\n'.join(lines) + '\n'
 

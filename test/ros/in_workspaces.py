@@ -65,6 +65,8 @@ def check(space: Path, folder: Path) -> None:
     """Everything that is found by name is found, in a devel or install space."""
     for command in COMMANDS:
         succeed(folder, *in_space(space, command))
+    succeed(folder, 'bash', '--norc', '-ic', '. "%s/setup.bash" && %s' % (
+        space, 'complete -p rosrun | grep -q _rocon_uri_rosrun && test -x "$_rocon_uri_script"'))
 
 
 @contextlib.contextmanager

@@ -177,5 +177,7 @@ def _complete(parser: argparse.ArgumentParser) -> None:
     try:    # it is not everywhere, and takes longer to import than all the rest
         argcomplete = import_module('argcomplete')
     except ImportError:
+        if 'COMP_LINE' in os.environ:   # who presses Tab does not want the command to be done
+            raise SystemExit(1) from None
         return
     argcomplete.autocomplete(parser)

@@ -43,6 +43,7 @@ from __future__ import annotations
 
 import argparse
 
+from rocon_uri.cli.completion import app_names, offer, uris
 from rocon_uri.cli.display import fields_as_json, painter, print_json
 from rocon_uri.cli.judged import add_defaults, named_apps, read_defaults, read_robot
 from rocon_uri.cli.packages import (
@@ -64,10 +65,12 @@ _REASONS_SHOWN = 20     # of one app; a person has enough by then
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument('names', metavar='NAME', nargs='*',
-                        help='package/name of an app: all about it (default: the list of all)')
-    parser.add_argument('--robot', metavar='URI',
-                        help='what the robot is (default: this machine, as platform prints it)')
+    offer(app_names, parser.add_argument(
+        'names', metavar='NAME', nargs='*',
+        help='package/name of an app: all about it (default: the list of all)'))
+    offer(uris, parser.add_argument(
+        '--robot', metavar='URI',
+        help='what the robot is (default: this machine, as platform prints it)'))
     parser.add_argument('--robot-type', metavar='TYPE',
                         help='what app_manager calls the robot, for platforms in .app files that '
                              'are not registered (default: its hardware_platform)')

@@ -19,6 +19,7 @@ where no name is in both
 """
 from __future__ import annotations
 
+from rocon_uri.cli.completion import offer, uris
 from rocon_uri.cli.display import fields_as_json, painter, print_json
 from rocon_uri.cli.given import GivenURI, Report, say
 from rocon_uri.compatibility import Relation, explain, is_compatible, relation
@@ -81,8 +82,8 @@ def _read_any(text: str) -> GivenURI:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument('a', metavar='A', help='a URI, as what an app runs on')
-    parser.add_argument('b', metavar='B', help='another one, as a robot')
+    offer(uris, parser.add_argument('a', metavar='A', help='a URI, as what an app runs on'),
+          parser.add_argument('b', metavar='B', help='another one, as a robot'))
 
 
 def main(args: argparse.Namespace) -> int:

@@ -39,6 +39,7 @@ import sys
 from argparse import Namespace
 
 from rocon_uri.cli import check
+from rocon_uri.cli.completion import offer, uris
 from rocon_uri.cli.databases import is_url, open_fleet
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.given import GivenURI, Report, say, shown_name
@@ -54,8 +55,8 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument('requests', metavar='REQUEST', nargs='*',
-                        help='a URI, as what an app runs on')
+    offer(uris, parser.add_argument(
+        'requests', metavar='REQUEST', nargs='*', help='a URI, as what an app runs on'))
     parser.add_argument('--requests-in', metavar='FILE',
                         help='take requests from a file, after those given as arguments')
     parser.add_argument('--in', dest='resources_in', metavar='FILE|URL',

@@ -18,6 +18,7 @@ JSON: {"uris": [URI, ...], "errors": [ERROR, ...]}
 """
 from __future__ import annotations
 
+from rocon_uri.cli.completion import offer, uris
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.given import Report, say
 
@@ -31,7 +32,7 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument('uris', metavar='URI', nargs='*', help='what to read')
+    offer(uris, parser.add_argument('uris', metavar='URI', nargs='*', help='what to read'))
     parser.add_argument('--in', dest='uris_in', metavar='FILE',
                         help='read the URIs in a file, after those given as arguments')
     parser.add_argument('-q', '--quiet', action='store_true', help='show the bad ones only')

@@ -27,6 +27,7 @@ import argparse
 import os
 import subprocess
 
+from rocon_uri.cli.completion import app_names, offer, uris
 from rocon_uri.cli.display import print_json
 from rocon_uri.cli.judged import add_defaults, named_apps, read_defaults, read_robot
 from rocon_uri.cli.packages import (
@@ -42,10 +43,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--output', metavar='FILE',
                         help='a file that ends in .dot, .svg, .png or .pdf (default: standard '
                              'output)')
-    parser.add_argument('--robot', metavar='URI', help='draw what this robot can run in green')
+    offer(uris, parser.add_argument(
+        '--robot', metavar='URI', help='draw what this robot can run in green'))
     add_defaults(parser)
-    parser.add_argument('--app', metavar='NAME', dest='names', action='append', default=[],
-                        help='draw this app only, with what it needs (may be repeated)')
+    offer(app_names, parser.add_argument(
+        '--app', metavar='NAME', dest='names', action='append', default=[],
+        help='draw this app only, with what it needs (may be repeated)'))
     add_running(parser, 'draw what runs on a capability server in green')
 
 

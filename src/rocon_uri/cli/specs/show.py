@@ -17,6 +17,7 @@ not exist is null
 """
 from __future__ import annotations
 
+from rocon_uri.cli.completion import offer, spec_names
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.packages import (
     add_package_path, meant, mention_faults, printable, workspace)
@@ -36,7 +37,7 @@ __all__ = ['add_arguments', 'main']
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument('name', metavar='NAME', help='package/name of a spec')
+    offer(spec_names, parser.add_argument('name', metavar='NAME', help='package/name of a spec'))
     add_package_path(parser)
 
 
