@@ -17,4 +17,8 @@ autodoc_member_order = 'bysource'
 autodoc_default_options = {'members': True}
 default_role = 'py:obj'
 exclude_patterns = ['_build']
+highlight_language = 'none'     # most blocks are output or URIs; others say what they are
 html_theme = 'alabaster'
+html_theme_options = {      # wide enough for 100 columns of code
+    'body_max_width': 'auto', 'code_font_size': '0.8em', 'page_width': '1240px'}
+html_static_path = ['_static']

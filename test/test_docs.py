@@ -58,6 +58,16 @@ def test_the_page_of_json_says_what_the_command_says():
     assert page.endswith('\n' + json_forms(VERBS) + '\n'), 'run doc/make_json.py'
 
 
+def test_the_page_of_values_has_the_vocabulary_that_comes_with_the_package(tmp_path):
+    import importlib.util
+    spec = importlib.util.spec_from_file_location('make_vocabulary',
+                                                  str(ROOT / 'doc' / 'make_vocabulary.py'))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    assert module.PAGE.read_text(encoding='utf-8') == module.vocabulary_page(), (
+        'run doc/make_vocabulary.py')
+
+
 def test_sphinx_builds_it_without_a_warning(tmp_path):
     pytest.importorskip('sphinx')
     pytest.importorskip('sqlalchemy', reason='SQLAlchemy is not installed')
