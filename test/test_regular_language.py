@@ -28,6 +28,7 @@ from rocon_uri.regular.budget import WORK_LIMIT
 from rocon_uri.regular.inclusion import Difference, includes
 from rocon_uri.regular.intersection import Intersection, common_name
 from rocon_uri.regular.language import Language, Step, union
+from rocon_uri.regular.product import Product, union_work
 from rocon_uri.regular.syntax import COUNT_LIMIT, DEPTH_LIMIT, SIZE_LIMIT, parse
 from rocon_uri.sources.ros_names import is_legal_base_name
 
@@ -392,6 +393,35 @@ def compare(one: str, other: str) -> None:
 @pytest.mark.parametrize('one, other', list(itertools.combinations(ACCEPTED, 2))[::4])
 def test_comparing_ends_within_the_work_that_is_allowed(one, other):
     compare(one, other)
+
+
+@pytest.mark.parametrize('positions, least, most', [
+    (0, 0, 0), (1, 0, 0), (1 << 7, 0, 0), (1 << 4000, 0, 0), (0b101 << 100, 0, 1),
+    (3 << 4000, 25, 35), (1 | 1 << 1000, 250, 265), (1 | 1 << 4000, 1000, 1040),
+    ((1 << 4000) - 1, 1000, 1040)])
+def test_the_work_of_a_union_is_that_of_the_span_and_a_little_of_the_length(positions, least, most):
+    assert least <= union_work(positions) <= most
+
+
+@pytest.mark.parametrize('one, other, cost', [
+    ('a', 'b', 2), ('a', '(.{1,255}a){16}', 4), ('(.{1,255}a){16}', 'a', 4),
+    ('(.{1,255}a){16}', '(.{1,255}b){16}', 6), ('a{250}', 'b{249}', 2)])
+def test_an_operation_on_a_large_state_set_costs_more(one, other, cost):
+    assert Product(language(one), language(other)).cost == cost
+
+
+def test_a_step_costs_the_unions_of_both_sides():
+    product = Product(language('(.{1,255}a){16}'), language('(.{1,255}b){16}'))
+    work = []
+    for one, other in ((1, 1), (1 | 1 << 1000, 1), (1, 1 | 1 << 2000),
+                       (1 | 1 << 1000, 1 | 1 << 2000)):
+        before = product.work
+        list(product.successors(Step(None, '', one, other)))
+        work.append(product.work - before)
+    assert 20 < work[0] < 60
+    assert 250 < work[1] - work[0] < 270
+    assert 500 < work[2] - work[0] < 540
+    assert work[3] - work[0] == work[1] + work[2] - 2 * work[0]
 
 
 @pytest.fixture
