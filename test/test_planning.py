@@ -239,6 +239,8 @@ def test_a_provider_of_the_interface_is_none_of_the_semantic_one() -> None:
       'front Front'], ('p/camera', 'p/front')),     # two preferences for one capability
     (['nav Nav A B', 'a A Camera=front', 'b B Camera=rear', 'Camera', 'Front>Camera',
       'front Front', 'rear Front'], ('p/front', 'p/rear')),
+    (['nav Nav A B C', 'a A Camera=left', 'b B Camera=front', 'c C Camera=right', 'left Camera',
+      'right Camera', 'Front>Camera', 'front Front'], ('p/left', 'p/right', 'p/front')),
 ])
 def test_two_preferences_for_one_capability_are_a_conflict(
         lines: List[str], conflict: Optional[Tuple[str, ...]]) -> None:

@@ -194,6 +194,7 @@ class TestPlan:
         [fault] = plan.faults
         assert fault.kind is FaultKind.CYCLE
         assert fault.cycle == tuple(cycle.split(' -> '))
+        assert fault.capability == spec_index(*lines).providers[fault.cycle[0]].implements
         assert fault.asked_for == 'p/A'
         assert str(fault) == 'providers depend on each other in a cycle: ' + cycle
         assert len(plan.order) == len(lines)

@@ -140,6 +140,8 @@ def test_the_default_provider_goes_with_it():
      "left.yaml:5:23: 'camera/image' and '/cmd_vel' of topics both come out as '/cmd_vel'"),
     ('remappings: {topics: {/cmd_vel: camera/image}}',
      "left.yaml:5:23: 'camera/image' and '/cmd_vel' of topics both come out as 'camera/image'"),
+    ('remappings: {topics: {~private: /joint_states}}',
+     "left.yaml:5:23: '/joint_states' and '~private' of topics both come out as '/joint_states'"),
     ('global_namespace: left\nremappings: {topics: {/cmd_vel: left/camera/image}}',
      "left.yaml:6:23: 'camera/image' and '/cmd_vel' of topics both come out as "
      "'left/camera/image'"),
