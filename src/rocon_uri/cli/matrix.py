@@ -31,7 +31,9 @@ def print_matrix(matches: Matches) -> None:
     paint = painter()
     print(paint(LEGEND + UNDECIDED, 'faint'))
     number = len(matches.requests)
-    is_wide = sys.stdout.isatty() and 2 * number > shutil.get_terminal_size().columns // 2
+    # before Python 3.11, a terminal that does not know its width has 0 columns
+    columns = shutil.get_terminal_size().columns or 80
+    is_wide = sys.stdout.isatty() and 2 * number > columns // 2
     if is_wide:     # the columns have numbers, and no blanks between them
         digits = len(str(number))
         for index, request in enumerate(matches.requests, 1):
