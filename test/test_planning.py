@@ -249,6 +249,13 @@ def test_two_preferences_for_one_capability_are_a_conflict(
     assert faults == [] or faults[0].candidates == conflict
 
 
+def test_a_preference_beside_a_default_is_a_conflict() -> None:
+    index = spec_index('nav Nav A B', 'a A Camera=left', 'b B Camera', 'left Camera',
+                       'right Camera')
+    [fault] = plan_start(index, 'p/Nav', defaults={'p/Camera': 'p/right'}).faults
+    assert (fault.kind, fault.candidates) == (FaultKind.CONFLICT, ('p/left', 'p/right'))
+
+
 def test_what_runs_conflicts_with_no_preference() -> None:
     index = spec_index('nav Nav A B', 'a A Camera=left', 'b B Camera=right', 'left Camera',
                        'right Camera')
