@@ -1,4 +1,4 @@
-"""Compatible or not, how two URIs lie to each other, and why."""
+"""Compatible or not, how the resources of two URIs are related, and why."""
 from __future__ import annotations
 
 import os

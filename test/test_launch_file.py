@@ -2,13 +2,13 @@
 from __future__ import annotations
 
 import os
-import threading
 from pathlib import Path
 from typing import Any, List, Optional, Union
 from xml.dom import minidom
 from xml.parsers.expat import ExpatError
 
 import pytest
+from at_once import at_once
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -312,17 +312,10 @@ def test_what_is_remembered_is_bounded(ours: Path, reads: List[str],
 
 def test_threads_may_share_it(ours: Path) -> None:
     files = LaunchFiles()
-    wrong: List[Any] = []
 
     def look() -> None:
         for number in range(200):
             name = 'good.launch' if number % 2 else 'godo.launch'
             found = files.look_at(name, str(ours)).fault
-            if (found is None) != (name == 'good.launch'):
-                wrong.append(found)
-    threads = [threading.Thread(target=look) for _ in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert wrong == []
+            assert (found is None) == (name == 'good.launch')
+    at_once(look, 4)

@@ -86,7 +86,7 @@ def test_in_the_corpus_only_what_is_really_wrong_is_found():
         (WARNING, 'duplicate-key'): 1}
     others = [finding for finding in findings if not finding.problem.endswith('does not exist')]
     assert [(finding.severity, finding.line, finding.column) for finding in others] == [
-        (WARNING, 18, 9),       # a description that is there twice
+        (WARNING, 18, 9),       # a duplicate description
         (ERROR, 11, 19),        # kinect_rgbd_sensor, which is called rgbd_sensor
         (WARNING, 16, 5)]       # image_color/compressed, below a topic of the interface
     missing = [finding for finding in findings if finding not in others]

@@ -432,7 +432,7 @@ def test_a_verdict_has_the_providers_that_can_be_had_beside_its_reasons():
     assert verdict.providers == ('caps/x', 'caps/y')
 
 
-# Names of files that are no paths
+# Names of files that are not paths
 
 @pytest.mark.parametrize('launch, what, meant', [
     ('ours/dance.launch', 'is a resource name', 'dance.launch'),

@@ -1,7 +1,7 @@
 """A database of resources: whatever is asked, the answers are those of ResourceIndex."""
 import json
 import random
-import threading
+from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
 
 import pytest
@@ -287,41 +287,22 @@ class TestSeveralProcesses:
     def test_two_who_write_at_once_lose_nothing(self, fleet, database_url):
         resources = ['rocon:/%s/bob_%d%s' % (platform, number, '*' * (number % 50 == 0))
                      for platform in ('pr2', 'kobuki', 'pc|pr2') for number in range(2500)]
-        errors = []
 
         def write(own, name):
             engine = open_engine(database_url)
             try:
                 ResourceDatabase(engine).add_all((uri, name) for uri in own)
-            except Exception as error:
-                errors.append(error)
             finally:
                 engine.dispose()
-        threads = [threading.Thread(target=write, args=arguments) for arguments in (
-            (resources[:6000], 'first'), (resources[:1000:-1], 'second'))]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        assert not errors
+        with ThreadPoolExecutor(2) as pool:
+            list(pool.map(write, (resources[:6000], resources[:1000:-1]), ('first', 'second')))
         assert set(fleet) == set(map(parse, resources))
         check_same_answers(fleet, ResourceIndex(fleet), ['rocon:/pr2/bob_1*', 'rocon:/kobuki'])
 
     def test_the_tables_are_made_once(self, database_url):
         engines = [open_engine(database_url) for _ in range(4)]
-        errors = []
-
-        def make(engine):
-            try:
-                ResourceDatabase(engine).add('rocon:/pr2')
-            except Exception as error:
-                errors.append(error)
-        threads = [threading.Thread(target=make, args=(engine,)) for engine in engines]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        assert not errors
+        with ThreadPoolExecutor(4) as pool:
+            list(pool.map(lambda engine: ResourceDatabase(engine).add('rocon:/pr2'), engines))
         assert do(engines[0], 'SELECT version FROM rocon_uri_version') == [(VERSION,)]
         assert len(ResourceDatabase(engines[0])) == 1
         for engine in engines:

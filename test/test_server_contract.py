@@ -3,6 +3,7 @@ import json
 import os
 import signal
 import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from made_packages import make_package
@@ -11,17 +12,13 @@ from robot import eventually
 
 def at_once(count, do):
     """What a function gives that many threads call at the same time, with the number of each."""
-    barrier, results = threading.Barrier(count), [None] * count
+    barrier = threading.Barrier(count)
 
     def run(number):
         barrier.wait()
-        results[number] = do(number)
-    threads = [threading.Thread(target=run, args=(number,)) for number in range(count)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    return results
+        return do(number)
+    with ThreadPoolExecutor(count) as pool:
+        return list(pool.map(run, range(count)))
 
 
 def environment(pid):
@@ -51,8 +48,7 @@ def test_a_start_of_what_waits_answers_1_and_of_what_stops_3(server):
     """1.5 start_capability, A19"""
     server.start_capability('Slow')
     server.stubborn_node_pid('slow')
-    stop = threading.Thread(target=server.stop_capability, args=('Slow',))
-    stop.start()
+    stop = ThreadPoolExecutor(1).submit(server.stop_capability, 'Slow')
     server.wait_for('Slow', 'stopping')
     assert server.start_capability('Slow') == 3
     assert server.start_capability('OnSlow') == 0
@@ -61,7 +57,7 @@ def test_a_start_of_what_waits_answers_1_and_of_what_stops_3(server):
     assert [(status.capability, status.state) for status in server.statuses()
             if status.state != 'failed'] == [
         ('robot/Slow', 'stopping'), ('robot/Slow', 'waiting'), ('robot/OnSlow', 'waiting')]
-    stop.join()
+    stop.result()
     server.wait_for('OnSlow', 'running')
     assert server.start_capability('OnSlow') == 2
     assert server.types() == [
@@ -235,12 +231,11 @@ def test_a_frozen_node_disturbs_nobody_and_ends(server):
     server.start_capability('Camera')
     server.wait_for('Camera', 'running')
     os.kill(server.node_pid('camera'), signal.SIGSTOP)
-    stop = threading.Thread(target=server.stop_capability, args=('Camera',))
-    stop.start()
+    stop = ThreadPoolExecutor(1).submit(server.stop_capability, 'Camera')
     server.wait_for('Camera', 'stopping')
     assert server.start_capability('Base') == 0
     server.wait_for('Base', 'running')
-    stop.join()
+    stop.result()
     assert server.running() == ['Base']
 
 

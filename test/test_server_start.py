@@ -1,6 +1,7 @@
 """How the capability server is configured, when it is ready, and what it makes of a reload."""
 import os
 import signal
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from built import built
@@ -195,24 +196,17 @@ def test_a_reload_touches_nothing_that_runs(robot):
 
 def test_reloads_disturb_nobody(robot):
     """A16: while four clients start and stop"""
-    import threading
     with robot.server(WITHOUT) as server:
-        errors = []
-
         def ask(name):
-            try:
-                for _ in range(5):
-                    assert server.start_capability(name) == 0
-                    assert server.stop_capability(name)
-            except Exception as error:
-                errors.append(error)
-        clients = [threading.Thread(target=ask, args=(name,))
-                   for name in ('Base', 'Camera', 'Good', 'Nothing')]
-        for client in clients:
-            client.start()
-        while any(client.is_alive() for client in clients):
-            server.call('reload_capabilities')
-        assert errors == []
+            for _ in range(5):
+                assert server.start_capability(name) == 0
+                assert server.stop_capability(name)
+        with ThreadPoolExecutor(4) as pool:
+            clients = [pool.submit(ask, name) for name in ('Base', 'Camera', 'Good', 'Nothing')]
+            while not all(client.done() for client in clients):
+                server.call('reload_capabilities')
+            for client in clients:
+                client.result()
         assert server.states() == {}
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 import ast
 import re
 from pathlib import Path
-from typing import Dict, Iterator, List, Set, Tuple
+from typing import Dict, Iterator, List, Set
 
 import pytest
 from sources import ROOT
@@ -38,10 +38,6 @@ LEVEL_OF = {name: level for level, names in enumerate(LEVELS) for name in names}
 EARLIER_PATHS = {'rocon_uri.rapps', 'rocon_uri.ros_names', 'rocon_uri.yaml_source',
                  'capabilities.faults', 'capabilities.providers'}
 RUNTIME = {'server', 'client', 'service_discovery', 'launch_manager'}
-
-#: imports that are still to be removed
-KNOWN_CIRCLES: Set[Tuple[str, ...]] = set()
-KNOWN_ARROWS: Set[Tuple[str, str]] = set()
 
 ANY_AT_MOST = 49
 
@@ -82,7 +78,7 @@ def test_there_is_no_circle() -> None:
         reached[module] = found
     circles = {tuple(sorted(other for other in reached[module] if module in reached[other]))
                for module in reached if module in reached[module]}
-    assert circles <= KNOWN_CIRCLES
+    assert circles == set()
 
 
 def is_forbidden(module: str, below: str) -> bool:
@@ -103,7 +99,7 @@ def is_forbidden(module: str, below: str) -> bool:
 def test_arrows_run_one_way() -> None:
     forbidden = {(module, below) for module in GRAPH for below in GRAPH[module]
                  if is_forbidden(module, below)}
-    assert forbidden <= KNOWN_ARROWS
+    assert forbidden == set()
 
 
 def test_no_file_is_executable_that_rosrun_would_find() -> None:
