@@ -108,7 +108,7 @@ class CapabilitiesClient:
         self._strict = strict
         self._reconnect = reconnect
         self._uses: Counter[str] = Counter()
-        self._lock = threading.RLock()          # of the attributes, held for no wait
+        self._lock = threading.RLock()          # for the attributes; not held while waiting
         self._bond_lock = threading.RLock()     # held while a bond is being made
         self._ended = threading.Event()
         self._lost = None if on_lost is None else LostWatch(on_lost, self._name)

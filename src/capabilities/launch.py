@@ -73,7 +73,7 @@ class Launch:
         self.real_path = None if file is None else os.path.realpath(file)   # None: the placeholder
         self._run = run
         self._name = name
-        self._lock = threading.Lock()       # held to send signals and to reap, for no wait
+        self._lock = threading.Lock()       # to send signals and to reap; not held while waiting
         self._reaped = False
         self._stopping: Optional[threading.Timer] = None
         self._ended = threading.Event()
@@ -209,7 +209,7 @@ def _call(function: Callable[..., None], *arguments: object) -> None:
     try:
         function(*arguments)
     except Exception:
-        _LOG.exception('error while a launch was told about')
+        _LOG.exception('a listener of a launch failed')
 
 
 def _pass_on(output: IO[bytes]) -> None:

@@ -72,7 +72,7 @@ class LaunchManager:
         self.__screen = screen
         self.__listener = listener
         self.__run = run
-        self.__lock = threading.Lock()      # held while a process is created, for no other wait
+        self.__lock = threading.Lock()      # held while a process is created, not to wait for one
         self.__launches: Dict[int, Launch] = {}
         self.__ids = itertools.count(1)
         self.__stopping = False

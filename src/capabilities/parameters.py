@@ -111,7 +111,7 @@ def _flag(get: Get, parameter: str, default: bool) -> bool:
 
 
 def _choice(get: Get, parameter: str, choices: Tuple[str, str]) -> Tuple[bool, List[str]]:
-    """A parameter that is one of two words: is it the second? And what is at fault."""
+    """Whether a parameter with two possible words is the second, and what is at fault."""
     value = get(parameter, choices[0])
     if value in choices:
         return value == choices[1], []

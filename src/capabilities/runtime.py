@@ -60,8 +60,8 @@ class Runtime:
         self._by_pid: Dict[int, CapabilityInstance] = {}
         self._gone: Dict[int, threading.Event] = {}
         self._losses: Deque[float] = deque(maxlen=_LOSSES)      # by the monotonic clock
-        self._reloads = 0                   # that were begun
-        self._newest_reload = 0             # that was finished
+        self._reloads = 0                   # how many were begun
+        self._newest_reload = 0             # the number of the newest that was finished
 
     @property
     def manager(self) -> LaunchManager:

@@ -164,7 +164,7 @@ class SpecIndex:
 
     def names_like(self, name: str, kind: str) -> List[str]:
         """
-        The names of a kind among which one is looked for that was probably meant.
+        The names of a kind, in which to look for near misses.
 
         :param str name: ``package/name``
         :param str kind: ``'interfaces'``, ``'capabilities'`` (both kinds of interfaces) or

@@ -48,7 +48,7 @@ class NameRequest:
         self.matches_in_order = pattern.matches_in_order()
         self._verdicts: Dict[NamePattern, bool] = {} if verdicts is None else verdicts
         self._work_left = REQUEST_WORK_LIMIT
-        self._tried: Dict[NamePattern, int] = {}    # with which limit, in vain
+        self._tried: Dict[NamePattern, int] = {}    # the limit that was too low
 
     def intersects(self, pattern: NamePattern, limit: int = WORK_LIMIT) -> Optional[bool]:
         """

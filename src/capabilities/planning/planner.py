@@ -175,7 +175,7 @@ class Planner:
         return names if self._compared <= _MAX_COMPARED else ()
 
     def _candidates_for(self, capability: str) -> Tuple[str, ...]:
-        if capability not in self._candidates:  # once: many may ask for one with many providers
+        if capability not in self._candidates:  # once, since many may depend on it
             self._candidates[capability] = tuple(self._spec_index.providers_of(capability))
         return self._candidates[capability]
 

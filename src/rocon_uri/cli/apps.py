@@ -137,7 +137,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _asked_for(names: Sequence[str], apps: Sequence[App], exported: Workspace) -> List[str]:
-    """What may be faulty of that which was asked for: apps, and the capabilities that they need."""
+    """The apps that were asked for and the capabilities that they need, where faults hid them."""
     if not names:
         return []
     found = {app.name for app in apps}

@@ -185,7 +185,7 @@ class _FaultsOfFile:
         self._unregistered: Set[str] = set()    # texts of fields with a value that is not
 
     def legal(self, lines: Iterable[str], first: int) -> Iterator[Line]:
-        """The URIs in lines of which the first has this number; what is no URI is reported."""
+        """The URIs in lines, numbered from ``first``; what is not a URI is reported."""
         unregistered = self._unregistered
         for number, line in enumerate(lines, first):
             try:

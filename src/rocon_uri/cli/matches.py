@@ -114,7 +114,7 @@ class _Kind:
     def __init__(self, line: Line, requests: List[RoconURI], nothing: Verdicts) -> None:
         self.uri = line[0]      # it keeps the fields that the kind is found by
         self._nothing = nothing
-        self._others: List[Line] = [line]       # some that no request is compatible with
+        self._others: List[Line] = [line]       # resources that no request is compatible with
         anyone = with_any_name(self.uri)
         self._requests = [(place, request) for place, request in enumerate(requests)
                           if is_compatible(with_any_name(request), anyone)]

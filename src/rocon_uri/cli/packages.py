@@ -110,7 +110,7 @@ def package_path(args: argparse.Namespace, report: Optional[PackageReport] = Non
 
 
 def workspace(args: argparse.Namespace) -> Tuple[PackageReport, Workspace]:
-    """All that the packages on the package path export, with a report that lacks their faults."""
+    """All that the packages on the package path export, and a report without their faults yet."""
     from rocon_uri.workspace import read_workspace  # here, since it loads catkin_pkg and YAML
     escape_unencodable()
     quiet_loggers()

@@ -52,7 +52,7 @@ def _columns() -> int:
         columns = 0
     try:
         columns = columns or os.get_terminal_size(sys.stdout.fileno()).columns
-    except (OSError, ValueError):       # it is none; ValueError: it has been closed
+    except (OSError, ValueError):       # not a terminal; ValueError: closed
         pass
     return columns if columns > 0 else 80
 

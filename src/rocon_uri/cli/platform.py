@@ -84,7 +84,7 @@ def _distribution_of_master() -> str:
             with ServerProxy(uri) as master:
                 answer = master.getParam('/rocon_uri', '/rosdistro')
             answers.append(str(answer[2]).strip())      # type: ignore[index]
-        except Exception:       # whatever answers there, or does not, it is no master
+        except Exception:       # what answers there is not a master
             answers.append('')
     asking = Thread(target=ask, daemon=True)    # looking up a host has no limit of its own
     asking.start()

@@ -92,7 +92,7 @@ class RunningServer:
         import rosgraph
         from capabilities.service_discovery import server_names
         before = socket.getdefaulttimeout()
-        socket.setdefaulttimeout(_TIMEOUT)      # requests to the master have none of their own
+        socket.setdefaulttimeout(_TIMEOUT)      # requests to the master have no timeout
         try:
             servers = server_names('/rocon_uri')
         except (OSError, rosgraph.MasterException):

@@ -96,7 +96,7 @@ def _is_group(item: Dict[str, object]) -> bool:
 
 
 def _check_duplicates(entries: Iterable[_Entry], file: CheckedFile) -> None:
-    """Find the entries that are one; on platforms that differ, both can be useful."""
+    """Find duplicate entries; those for different platforms can both be useful."""
     first: Dict[object, _Entry] = {}
     for entry in entries:
         key = entry.kind, *identity(entry.kind, entry.source, entry.group)

@@ -69,7 +69,7 @@ def _near_tags(tag: str) -> List[str]:
 
 
 def _check_attributes(export: Export, file: CheckedFile) -> None:
-    """Check that an export names what it names in the way in which it is looked for."""
+    """Check that an export names its file in the attribute, or the text, that is read."""
     place = export.line, export.column
     expected = _ATTRIBUTES.get(export.tag)
     for attribute in export.attributes:
@@ -143,7 +143,7 @@ def _elements(path: str) -> List[_Element]:
 
 
 def _place(problem: str, elements: Sequence[_Element]) -> Place:
-    """The place of the element that catkin_pkg, which gives none, quotes or else names."""
+    """The place of the element that an error of catkin_pkg, which has none, quotes or names."""
     listed = problem.partition('following tags: ')[2].partition(' - ')[0].split(', ')
 
     def likeness(element: _Element) -> int:

@@ -75,7 +75,7 @@ def _any_of(column: ColumnElement, values: List[str]) -> ColumnElement:
 
 
 def _overlapping(field: ValuesField) -> List[str]:
-    """The values asked for, their members, and the groups that contain one of these."""
+    """The values asked for, their members, and the groups that contain any of them."""
     known = field.vocabulary.field(field.field_name)
     return [value for value in known if known.mask(value) & field.mask] + sorted(field.others)
 

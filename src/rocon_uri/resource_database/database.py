@@ -129,8 +129,8 @@ class ResourceDatabase:
         """
         The resources that match a request.
 
-        They are those that were there when this was called, and are read as they are taken: until
-        the last one was, or the iterator is closed or lost, it holds a connection.
+        The answer is that of the moment of the call. It is read as it is taken: the iterator holds
+        a connection until the last resource is taken, or until it is closed or lost.
 
         :param request: RoconURI, or str that is parsed
         :param bool ordered: in the order in which they were added, else in none

@@ -21,8 +21,8 @@ __all__ = ['ADD_KIND', 'COLUMNS', 'REPLACE', 'Condition', 'Dialect', 'ranges']
 #: those of a resource, in the order in which rows are given
 COLUMNS = ('digest', 'id', 'kind', 'name', 'reversed', 'is_pattern', 'uri', 'payload', 'expires')
 
-#: what adding a resource does with an equal one; if that has expired, it is another one, which
-#: takes its place at the end
+#: what adding a resource does with an equal one; if that has expired, the new one gets a new id, so
+#: that it comes last
 REPLACE = (' ON CONFLICT (digest) DO UPDATE SET payload = excluded.payload, '
            'expires = excluded.expires, ' + ', '.join(
                '{0} = CASE WHEN rocon_uri_resource.expires <= %(now)s THEN excluded.{0} '

@@ -58,7 +58,7 @@ def _fits(kind: RoconURI, asked: RoconURI, request: RoconURI) -> bool:
     if kind.vocabulary is not asked.vocabulary:
         try:
             kind, asked = aligned(kind, asked)
-        except UnregisteredValue:       # which a comparison with anything at all survives
+        except UnregisteredValue:       # rocon:/ is compatible all the same
             return is_compatible(kind, request)
     return is_compatible(kind, asked)
 

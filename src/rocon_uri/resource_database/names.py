@@ -25,7 +25,7 @@ def is_too_large(pattern: NamePattern) -> bool:
 
 def is_left_to_database(pattern: NamePattern) -> bool:
     """
-    Does a database look at each name, since how it starts and ends does not tell?
+    Does a database look at each name, because prefix and suffix do not decide?
 
     :param NamePattern pattern: any
     :returns: bool, False too for an expression that is too large

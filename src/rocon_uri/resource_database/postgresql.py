@@ -59,8 +59,8 @@ class PostgreSQL(Dialect):
             {'pair_kinds': _array(kinds), 'pair_names': '/'.join(names)})
 
     def names(self, pattern: NamePattern, kinds: str, by_kind: bool) -> Condition:
-        # These operators only the index of names in each kind has. The planner would take the other
-        # one, since it believes of any prefix that few names have it.
+        # Only the index of names in each kind has these operators. The planner would take the other
+        # index, since it assumes that few names have the same prefix.
         text, parameters = ranges(pattern, comparison='~' if by_kind else '')
         conditions = [text, kinds]
         if is_left_to_database(pattern):
@@ -83,7 +83,7 @@ class PostgreSQL(Dialect):
         cursor.execute('SELECT pg_advisory_xact_lock(%d)' % _PATTERNS_LOCK)
 
     def add_kinds(self, cursor: DBAPICursor, kinds: Mapping[bytes, Fields]) -> None:
-        for digest in sorted(kinds):        # in one order, since of two orders comes a deadlock
+        for digest in sorted(kinds):        # in one order: different ones can deadlock
             cursor.execute(ADD_KIND, dict(kinds[digest]._asdict(), digest=digest))
 
     def kind_ids(self, cursor: DBAPICursor, digests: Iterable[bytes]) -> Dict[bytes, int]:

@@ -112,5 +112,5 @@ def _pairs(known: Known, allowed: Collection[int], name: NameRequest) -> Tuple[P
 
 @lru_cache(64)
 def _verdicts(name: str) -> Dict[NamePattern, bool]:
-    """What comparing a pattern came to in earlier requests with this name."""
+    """The verdicts on patterns from earlier requests with this name."""
     return {}

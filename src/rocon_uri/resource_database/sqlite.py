@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ['SQLite', 'prepare_file']
 
-_BUSY_MILLISECONDS = 60000      # to wait for another who writes, whose batch takes less than one
+_BUSY_MILLISECONDS = 60000      # to wait for another writer, whose batch takes less
 
 
 class SQLite(Dialect):
@@ -48,7 +48,7 @@ class SQLite(Dialect):
                          {'kinds': json.dumps(numbers)})
 
     def pairs(self, pairs: List[Tuple[int, str]]) -> Condition:
-        # as keys and values, since to take apart a list for each takes longer than to look it up
+        # as keys and values: splitting a list for each pair takes longer than looking it up
         written = ','.join('"%d":"%s"' % (kind, name.replace('\\', r'\\'))
                            for kind, name in pairs)
         return Condition(
@@ -57,8 +57,8 @@ class SQLite(Dialect):
             {'pairs': '{%s}' % written})
 
     def names(self, pattern: NamePattern, kinds: str, by_kind: bool) -> Condition:
-        # A plus keeps a column from being looked up: of the two ends of a name the longer one is,
-        # and names that end alike are not in the order of their kinds.
+        # A plus keeps SQLite from looking a column up in an index. Only the longer end of the name
+        # is looked up; the index of reversed names does not begin with the kind.
         from_end = len(pattern.suffix) > len(pattern.prefix)
         text, parameters = ranges(pattern, '+name' if from_end else 'name',
                                   'reversed' if from_end else '+reversed')
@@ -109,7 +109,7 @@ def _begin(connection: Connection, statement: str) -> DBAPICursor:
 
 def prepare_file(engine: Engine, create: bool) -> None:
     """
-    Refuse a database of which each connection would have its own, and let others write.
+    Refuse a database that each connection would have a copy of, and let others write.
 
     :param engine: `sqlalchemy.engine.Engine`
     :param bool create: make the file, and set WAL; else change nothing

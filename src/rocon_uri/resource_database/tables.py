@@ -64,7 +64,7 @@ _ANNOUNCERS = (
     'PRIMARY KEY (master, announcer, key))',
     'CREATE INDEX rocon_uri_announcer_digest ON rocon_uri_announcer (digest)')
 
-#: what makes each version of the one before; the first, of nothing
+#: the statements that make each version from the one before, and the first from nothing
 _VERSIONS = (_RESOURCES, _ANNOUNCERS)
 
 #: the version of the tables that this module makes, and the only one that it reads
@@ -75,7 +75,7 @@ def prepare_tables(engine: Engine, dialect: Dialect, create: bool) -> None:
     """
     Make the tables, or make those of an earlier version into those of this one.
 
-    Of several who do so at once one does, and the others wait.
+    Where several processes call it at once, one makes them, and the others wait.
 
     :param engine: `sqlalchemy.engine.Engine`
     :param Dialect dialect: of the engine

@@ -88,7 +88,7 @@ class Reading:
         """
         Data as a mapping, in which no key may be repeated; an empty one if it was refused.
 
-        ``place`` is where errors say that data is which does not know it.
+        ``place`` is what errors say of data that does not know its own place.
         """
         if not isinstance(data, dict):
             own_place = place_of(data)

@@ -119,7 +119,7 @@ class LaunchFiles:
     """
 
     def __init__(self) -> None:
-        self._lock = threading.Lock()       # held for no reading
+        self._lock = threading.Lock()       # not held while a file is read
         self._files: Dict[Tuple[str, str], Tuple[_Identity, LaunchFile]] = {}
 
     def look_at(self, name: str, folder: str) -> LaunchFile:

@@ -17,7 +17,7 @@ _graph_name = re.compile(r'[~/A-Za-z][\w/]*', re.ASCII).fullmatch
 
 def is_legal_base_name(name: str | None) -> bool:
     """
-    Is this a name without a namespace, as of a robot: a letter, then letters, digits and ``_``?
+    Is this a name without a namespace, like a robot's: a letter, then letters, digits and ``_``?
 
     :param str name: the name; ``None`` is not legal
     :returns: bool
