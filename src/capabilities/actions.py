@@ -42,5 +42,7 @@ class Do(Enum):
 class Action(NamedTuple):
     """Something to do with an instance."""
 
+    #: what to do
     do: Do
+    #: with which instance
     instance: CapabilityInstance

@@ -36,6 +36,7 @@ class Catalogue(NamedTuple):
     []
     """
 
+    #: the specs that the filters leave
     spec_index: SpecIndex
     #: default providers by interface name; interfaces without a default are left out
     defaults: Dict[str, str]

@@ -61,6 +61,7 @@ class Failure(NamedTuple):
     True
     """
 
+    #: the name of its interface
     interface: str
     #: '' if none had been chosen
     provider: str
@@ -74,6 +75,7 @@ class Failure(NamedTuple):
     since: float
     #: `NO_EXIT_CODE` if no process of its own ended
     exit_code: int
+    #: why it ended, or could not start
     text: str
 
 

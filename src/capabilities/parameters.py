@@ -37,16 +37,21 @@ class Parameters(NamedTuple):
 
     #: only specs of these packages; empty for all
     package_whitelist: List[str]
+    #: no specs of these packages
     package_blacklist: List[str]
     #: only specs of these names; empty for all
     whitelist: List[str]
+    #: not these specs
     blacklist: List[str]
     #: the default provider by the name of the interface
     defaults: Dict[str, str]
+    #: is an interface with several providers and no default an error?
     missing_default_provider_is_an_error: bool
     #: base name; None for that of the node and ``_nodelet_manager``
     nodelet_manager_name: Optional[str]
+    #: show the output of all nodes?
     use_screen: bool
+    #: log details for developers?
     debug: bool
     #: the capabilities to start
     autostart: List[str]
@@ -81,12 +86,20 @@ def read_parameters(get: Get, screen: bool = False) -> Parameters:
     if faults:
         raise InvalidConfiguration(faults)
     return Parameters(
-        _names(get, '~package_whitelist'), _names(get, '~package_blacklist'),
-        _names(get, '~whitelist'), _names(get, '~blacklist'), defaults,
-        _flag(get, '~missing_default_provider_is_an_error', False),
-        name if isinstance(name, str) else None, _flag(get, '~use_screen', screen),
-        _flag(get, '~debug', False), _names(get, '~autostart'), keep_dependents, ends,
-        _flag(get, '~nodelet_manager', True))
+        package_whitelist=_names(get, '~package_whitelist'),
+        package_blacklist=_names(get, '~package_blacklist'),
+        whitelist=_names(get, '~whitelist'),
+        blacklist=_names(get, '~blacklist'),
+        defaults=defaults,
+        missing_default_provider_is_an_error=_flag(
+            get, '~missing_default_provider_is_an_error', False),
+        nodelet_manager_name=name if isinstance(name, str) else None,
+        use_screen=_flag(get, '~use_screen', screen),
+        debug=_flag(get, '~debug', False),
+        autostart=_names(get, '~autostart'),
+        keep_dependents=keep_dependents,
+        ends_without_nodelet_manager=ends,
+        nodelet_manager=_flag(get, '~nodelet_manager', True))
 
 
 def _names(get: Get, parameter: str) -> List[str]:

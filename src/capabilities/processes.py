@@ -59,8 +59,8 @@ class ServerRun(NamedTuple):
 class _Process(NamedTuple):
     """The content of /proc/PID/stat for a process that has not ended."""
 
-    parent: int
-    group: int
+    parent: int     # the id of its parent
+    group: int      # the id of its process group
     started: int    # clock ticks since the machine started
 
     @classmethod
@@ -79,12 +79,12 @@ class _Process(NamedTuple):
 class Marked(NamedTuple):
     """A process that carries a mark."""
 
-    pid: int
-    parent: int
-    group: int
-    server: str
-    run: str
-    launch: str
+    pid: int        # its id
+    parent: int     # that of its parent
+    group: int      # that of its process group
+    server: str     # the three parts of its mark, as in `ServerRun.mark`
+    run: str        # the second
+    launch: str     # the third
 
     @property
     def command(self) -> str:

@@ -56,8 +56,9 @@ class Roster:
 
     def could_not_start(self, interface: str, provider: str, text: str) -> None:
         """Remember that a capability could not be started."""
-        self.failures[interface] = Failure(interface, provider, False, 0, (), self._clock(),
-                                           NO_EXIT_CODE, text)
+        self.failures[interface] = Failure(
+            interface, provider, started=False, uses=0, dependents=(), since=self._clock(),
+            exit_code=NO_EXIT_CODE, text=text)
 
     def forget_failures(self, interfaces: Collection[str]) -> None:
         """Forget the failures of all capabilities but these."""
@@ -96,5 +97,6 @@ class Roster:
 
     def _failure(self, instance: CapabilityInstance, exit_code: int, text: str) -> Failure:
         dependents = tuple(other.interface for other in self.dependents(instance))
-        return Failure(instance.interface, instance.provider, instance.started,
-                       instance.reference_count, dependents, self._clock(), exit_code, text)
+        return Failure(instance.interface, instance.provider, started=instance.started,
+                       uses=instance.reference_count, dependents=dependents, since=self._clock(),
+                       exit_code=exit_code, text=text)

@@ -20,7 +20,9 @@ class StatusEntry(NamedTuple):
     'failed'
     """
 
+    #: its name
     capability: str
+    #: the name of its provider
     provider: str
     #: that of its `State`, or `FAILED`
     state: str
@@ -55,12 +57,14 @@ def status_entries(roster: Roster) -> List[StatusEntry]:
         for dependency in instance.dependencies:
             dependents.setdefault(id(dependency), {})[instance.interface] = None
     entries = [StatusEntry(
-        instance.interface, instance.provider, instance.state.value, instance.started,
-        instance.reference_count, tuple(dependents.get(id(instance), ())), instance.pid or 0,
-        instance.since, NO_EXIT_CODE, '; '.join(instance.notes.values()))
+        capability=instance.interface, provider=instance.provider, state=instance.state.value,
+        started=instance.started, uses=instance.reference_count,
+        dependents=tuple(dependents.get(id(instance), ())), pid=instance.pid or 0,
+        since=instance.since, exit_code=NO_EXIT_CODE, text='; '.join(instance.notes.values()))
         for instance in roster.instances]
     for failure in roster.failures.values():
         entries.append(StatusEntry(
-            failure.interface, failure.provider, FAILED, failure.started, failure.uses,
-            failure.dependents, 0, failure.since, failure.exit_code, failure.text))
+            capability=failure.interface, provider=failure.provider, state=FAILED,
+            started=failure.started, uses=failure.uses, dependents=failure.dependents, pid=0,
+            since=failure.since, exit_code=failure.exit_code, text=failure.text))
     return entries

@@ -92,9 +92,10 @@ class Planner:
                   implements: Optional[str] = None, candidates: Tuple[str, ...] = (),
                   semantic_candidates: Tuple[str, ...] = (),
                   known: Collection[str] = ()) -> Fault:
-            return Fault(kind, capability, asked_for, required_by, provider,
-                         provider is not None and not preferred, implements, candidates,
-                         semantic_candidates, known=known)
+            return Fault(kind, capability, asked_for, required_by=required_by, provider=provider,
+                         is_default=provider is not None and not preferred, implements=implements,
+                         candidates=candidates, semantic_candidates=semantic_candidates,
+                         known=known)
 
         if self._spec_index.capability(capability) is None:
             return fault(FaultKind.NO_INTERFACE, known=self._alike(capability, 'capabilities'))
@@ -140,9 +141,10 @@ class Planner:
         providers: Dict[str, str] = {}
         for one in self._dependencies:
             providers.setdefault(one.capability, one.provider)
-        return StartPlan([step.provider for step in steps if not step.running], providers,
-                         dependencies, faults + launches.all_faults(), tuple(steps),
-                         tuple(launches.unread))
+        return StartPlan(order=[step.provider for step in steps if not step.running],
+                         providers=providers, dependencies=dependencies,
+                         faults=faults + launches.all_faults(), steps=tuple(steps),
+                         unread=tuple(launches.unread))
 
     def _instance(self, need: _Need) -> Union[_Instance, Fault]:
         """The instance that meets a need: an existing one, whatever its provider, or a new one."""
@@ -208,5 +210,5 @@ class Planner:
         if not running:
             launch_file = launches.add(capability, self._provider(provider), need.asked_for)
         depends_on = dict.fromkeys(below.capability for below in self._dependencies[instance])
-        return PlannedProvider(capability, provider, running, launch_file, tuple(depends_on),
-                               need.required_by)
+        return PlannedProvider(capability, provider, running=running, launch_file=launch_file,
+                               depends_on=tuple(depends_on), required_by=need.required_by)

@@ -54,9 +54,9 @@ def seen_names(needed: RequiredCapability, plan: StartPlan, exported: Workspace
             below.update(plan.dependencies[name])
     remapped = merged_remappings(exported.providers[name] for name in plan.order if name in below)
     return [] if interface is None else [
-        SeenName(kind, grouping, name, element.type,
-                 remapped.get(kind, {}).get(name, name),
-                 needed.remappings.get(kind, {}).get(name, name))
+        SeenName(kind=kind, grouping=grouping, name=name, type=element.type,
+                 robot_name=remapped.get(kind, {}).get(name, name),
+                 app_name=needed.remappings.get(kind, {}).get(name, name))
         for kind, name, element, grouping in interface.elements()]
 
 

@@ -2,14 +2,14 @@
 from __future__ import annotations
 
 import os
-from typing import Dict, List, NamedTuple, Sequence
-from xml.parsers import expat
+from typing import List, Sequence
 
 from capabilities.discovery import EXPORTS, catkin_package
 from rocon_uri.lint.checked_file import CheckedFile, is_inside
 from rocon_uri.lint.finding import Finding
 from rocon_uri.sources.located import Place
-from rocon_uri.sources.packages import Export, Package, PackageError, read_manifest
+from rocon_uri.sources.packages import (
+    Element, Export, Package, PackageError, manifest_elements)
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 __all__ = ['FILE_EXPORTS', 'check_manifest']
@@ -29,8 +29,9 @@ def check_manifest(package: Package) -> List[Finding]:
     :returns: list of `Finding`
     """
     file = CheckedFile(package.manifest, package.folder)
-    elements = _elements(package.manifest)
+    elements: List[Element] = []
     try:
+        elements = manifest_elements(package.manifest)
         catkin_package(package.manifest)
     except PackageError as error:
         place = _place(error.problem, elements) if error.line is None else error.place
@@ -101,62 +102,20 @@ def _check_app_dir(export: Export, package: Package, file: CheckedFile) -> None:
             place, 'file-missing')
 
 
-class _Element(NamedTuple):
-    """One element directly in a manifest."""
-
-    #: its name
-    tag: str
-    #: its attributes
-    attributes: Dict[str, str]
-    #: the texts in it, in pieces
-    text: List[str]
-    #: where it begins, counted from 1
-    place: Place
-
-
-def _elements(path: str) -> List[_Element]:
-    """The root and the elements directly in it; none where the file cannot be read again."""
-    elements: List[_Element] = []
-    parser = expat.ParserCreate('utf-8')
-    depth = [0]
-
-    def start(tag: str, attributes: Dict[str, str]) -> None:
-        depth[0] += 1
-        if depth[0] <= 2:
-            place = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
-            elements.append(_Element(tag, attributes, [], place))
-
-    def end(_: str) -> None:
-        depth[0] -= 1
-
-    def text(data: str) -> None:
-        if depth[0] == 2:
-            elements[-1].text.append(data)
-
-    parser.StartElementHandler, parser.EndElementHandler = start, end
-    parser.CharacterDataHandler = text
-    try:
-        parser.Parse(read_manifest(path), True)
-    except (PackageError, expat.ExpatError):    # it has changed
-        pass
-    return elements
-
-
-def _place(problem: str, elements: Sequence[_Element]) -> Place:
+def _place(problem: str, elements: Sequence[Element]) -> Place:
     """The place of the element that an error of catkin_pkg, which has none, quotes or names."""
     listed = problem.partition('following tags: ')[2].partition(' - ')[0].split(', ')
 
-    def likeness(element: _Element) -> int:
-        text = ''.join(element.text).strip()
+    def likeness(element: Element) -> int:
         if element.tag != 'name' and any(
                 value and (repr(value) in problem or '"%s"' % value in problem)
-                for value in (text, *element.attributes.values())):
+                for value in (element.text, *element.attributes.values())):
             return 4
         if '"%s"' % element.tag in problem or element.tag in listed:
             return 3
         if element is elements[0] or element.tag not in problem.lower():
             return 0
-        return 1 + (not text or ('email' in problem and not element.attributes))
+        return 1 + (not element.text or ('email' in problem and not element.attributes))
 
     best = max(elements, key=likeness, default=None)
     if best is None:
@@ -164,11 +123,10 @@ def _place(problem: str, elements: Sequence[_Element]) -> Place:
     return best.place if likeness(best) else elements[0].place
 
 
-def _check_app_manager(package: Package, elements: Sequence[_Element], file: CheckedFile) -> None:
+def _check_app_manager(package: Package, elements: Sequence[Element], file: CheckedFile) -> None:
     """app_manager asks only the packages that depend on it."""
     exports = [export for export in package.exports if export.tag == 'app_manager']
     if exports and package.name != 'app_manager' and not any(
-            element.tag in _DEPENDENCIES and ''.join(element.text).strip() == 'app_manager'
-            for element in elements):
+            element.tag in _DEPENDENCIES and element.text == 'app_manager' for element in elements):
         file.warn('the package does not depend on app_manager, which does not see its apps then',
                   (exports[0].line, exports[0].column), 'no-app-manager-dependency')

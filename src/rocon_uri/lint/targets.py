@@ -62,8 +62,8 @@ def find_targets(given: Iterable[str], around: Mapping[str, Package]) -> Targets
             finder.errors.append(
                 '%s is not a file, a directory or a package on the package path%s' % (
                     quoted_path(name), did_you_mean(near_misses(name, around))))
-    return Targets(finder.packages, finder.only, finder.faults, finder.findings, finder.errors,
-                   finder.are_whole)
+    return Targets(packages=finder.packages, only=finder.only, faults=finder.faults,
+                   findings=finder.findings, errors=finder.errors, are_whole=finder.are_whole)
 
 
 class _Finder:

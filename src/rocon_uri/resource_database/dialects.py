@@ -37,7 +37,9 @@ ADD_KIND = (
 class Condition(NamedTuple):
     """A part of a statement, and what its parameters stand for."""
 
+    #: SQL, with parameters as ``%(name)s``
     text: str
+    #: the values of the parameters by name
     parameters: Dict[str, object]
 
 

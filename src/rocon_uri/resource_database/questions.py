@@ -26,6 +26,7 @@ class Question(NamedTuple):
 
     #: what follows the columns of a SELECT, for each part; none where nothing can match
     parts: List[str]
+    #: the values of the parameters in all parts, by name
     parameters: Dict[str, object]
     #: tells whether a literal name that was found matches; None where the database knows
     check: Optional[Callable[[str], bool]] = None

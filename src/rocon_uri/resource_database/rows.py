@@ -14,10 +14,10 @@ __all__ = ['Fields', 'Row', 'digest_of', 'fields_of', 'payload_text', 'row_of']
 class Fields(NamedTuple):
     """A kind: the concert and the fields with registered values, their alternatives sorted."""
 
-    concert_name: str
-    hardware_platform: str
-    application_framework: str
-    operating_system: str
+    concert_name: str               # '' for none
+    hardware_platform: str          # as in a URI, with the alternatives sorted
+    application_framework: str      # likewise
+    operating_system: str           # likewise
 
     def digest(self) -> bytes:
         """16 bytes that tell kinds apart."""

@@ -49,6 +49,7 @@ def _unpickled(text: str, added: int) -> NotAllAdded:
 class Entry(NamedTuple):
     """A resource to be stored."""
 
+    #: the resource
     uri: RoconURI
     #: as `rocon_uri.resource_database.rows.payload_text` returns it
     payload: Optional[str]

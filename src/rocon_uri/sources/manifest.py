@@ -9,7 +9,7 @@ from __future__ import annotations
 import codecs
 import os
 import re
-from typing import TYPE_CHECKING, Dict, List, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Dict, List, NamedTuple, Optional, Tuple, Union
 from xml.parsers import expat
 
 from rocon_uri.sources.located import LocatedError, with_id
@@ -20,8 +20,8 @@ from rocon_uri.sources.yaml_source import read_file
 if TYPE_CHECKING:
     from catkin_pkg.package import Package as CatkinPackage
 
-__all__ = ['Export', 'MANIFEST', 'Package', 'PackageError', 'as_package', 'package_from_manifest',
-           'read_manifest']
+__all__ = ['Element', 'Export', 'MANIFEST', 'Package', 'PackageError', 'as_package',
+           'manifest_elements', 'package_from_manifest', 'read_manifest']
 
 #: the name of the file that makes a folder a package
 MANIFEST = 'package.xml'
@@ -48,6 +48,19 @@ class PackageError(LocatedError):
         return self.problem
 
 
+class Element(NamedTuple):
+    """The root of a manifest, or an element directly in it."""
+
+    #: its name
+    tag: str
+    #: its attributes
+    attributes: Dict[str, str]
+    #: the text in it, without white space around it; ``<export>`` has its own only in part
+    text: str
+    #: where it begins, counted from 1
+    place: Tuple[int, int]
+
+
 class Export(NamedTuple):
     """One element directly in the ``<export>`` of a manifest."""
 
@@ -60,6 +73,7 @@ class Export(NamedTuple):
     text: str
     #: where it begins, counted from 1, or None where that is not known
     line: Optional[int]
+    #: counted from 1, or None
     column: Optional[int]
 
     def file(self, attribute: str = '') -> str:
@@ -132,7 +146,7 @@ def package_from_manifest(path: str) -> Package:
     path = os.path.abspath(path)
     reader = _ManifestReader(path)
     reader.read(read_manifest(path))
-    names = [name.strip(' \n\r\t') for name in reader.names]
+    names = [element.text for element in reader.elements[1:] if element.tag == 'name']
     if len(names) != 1:
         raise PackageError('The manifest must contain exactly one "name" tag', path)
     if not _is_name(names[0]):
@@ -141,16 +155,27 @@ def package_from_manifest(path: str) -> Package:
     return Package(names[0], os.path.dirname(path), path, reader.exports)
 
 
+def manifest_elements(path: str) -> List[Element]:
+    """
+    The root of a package.xml and the elements directly in it, in their order.
+
+    :raises PackageError: as `package_from_manifest`, but not for the name
+    """
+    reader = _ManifestReader(path)
+    reader.read(read_manifest(path))
+    return reader.elements
+
+
 class _ManifestReader:
-    """Collects the names and the exports of a manifest while expat reads it."""
+    """Collects the elements and the exports of a manifest while expat reads it."""
 
     def __init__(self, path: str) -> None:
         self.path = path
-        self.names: List[str] = []
+        self.elements: List[Element] = []
         self.exports: List[Export] = []
         self._depth = 0
         self._section = ''              # the element below <package> that is read
-        self._text: List[str] = []      # of the name or the export that is read
+        self._text: List[str] = []      # of the element or the export that is read
         self._parser = expat.ParserCreate('utf-8')
         self._parser.buffer_text = True
         self._parser.XmlDeclHandler = self._declaration
@@ -180,22 +205,27 @@ class _ManifestReader:
             raise PackageError('format version %s is unknown, expected 1, 2 or 3'
                                % quoted(attributes['format']), self.path)
         self._depth += 1
-        if self._depth == 2:
+        if self._depth <= 2:
+            self.elements.append(Element(tag, attributes, '', self._place()))
             self._section = tag
             self._text.clear()
         elif self._section == 'export' and self._depth == 3:
-            self.exports.append(Export(tag, attributes, '', self._parser.CurrentLineNumber,
-                                       self._parser.CurrentColumnNumber + 1))
+            self.exports.append(Export(tag, attributes, '', *self._place()))
             self._text.clear()
         elif self._section == 'export':
             self._text.append('<%s>' % tag)
 
     def _end(self, tag: str) -> None:
-        if self._depth == 2 and tag == 'name':
-            self.names.append(''.join(self._text))
+        if self._depth == 2:
+            self.elements[-1] = self.elements[-1]._replace(
+                text=''.join(self._text).strip(' \n\r\t'))
         elif self._depth == 3 and self._section == 'export':
             self.exports[-1] = self.exports[-1]._replace(text=''.join(self._text).strip())
+            self._text.clear()
         self._depth -= 1
+
+    def _place(self) -> Tuple[int, int]:
+        return self._parser.CurrentLineNumber, self._parser.CurrentColumnNumber + 1
 
 
 def as_package(package: Union[Package, CatkinPackage]) -> Package:

@@ -19,11 +19,13 @@ from typing import Dict, Iterable, Iterator, List, Optional
 
 from rocon_uri.sources.located import with_id
 from rocon_uri.sources.manifest import (
-    MANIFEST, Export, Package, PackageError, as_package, package_from_manifest, read_manifest)
+    MANIFEST, Element, Export, Package, PackageError, as_package, manifest_elements,
+    package_from_manifest, read_manifest)
 from rocon_uri.sources.wording import quoted, quoted_path
 
-__all__ = ['Export', 'MANIFEST', 'Package', 'PackageError', 'as_package', 'find_packages',
-           'package_folders', 'package_from_manifest', 'read_manifest']
+__all__ = ['Element', 'Export', 'MANIFEST', 'Package', 'PackageError', 'as_package',
+           'find_packages', 'manifest_elements', 'package_folders', 'package_from_manifest',
+           'read_manifest']
 
 _IGNORE_MARKERS = frozenset(['AMENT_IGNORE', 'CATKIN_IGNORE', 'COLCON_IGNORE'])
 _NOTHING_BELOW = frozenset([MANIFEST, 'manifest.xml', 'rospack_nosubdirs'])
