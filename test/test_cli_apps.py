@@ -328,6 +328,35 @@ def test_one_app_that_runs_shows_its_plan_and_the_names_that_it_sees(apps):
             in lines[start + 6:])
 
 
+def test_one_app_shows_what_a_provider_of_a_semantic_interface_does_for_it(
+        apps, apps_json, tmp_path):
+    top = 'spec_version: 1, description: made by a test'
+    make_package(
+        tmp_path, 'ours', [
+            ('capability_interface', 'camera.yaml'),
+            ('semantic_capability_interface', 'front.yaml'),
+            ('capability_provider', 'usb.yaml'), ('rocon_app', 'dance.rapp')],
+        camera_yaml='{name: Camera, spec_type: interface, %s, interface: {topics: {provides: '
+                    '{/image: {type: a/A}, /info: {type: a/B}}}}}' % top,
+        front_yaml='{name: Front, spec_type: semantic_interface, %s, redefines: ours/Camera, '
+                   'remappings: {topics: {/image: /front/image}}}' % top,
+        usb_yaml='{name: usb, spec_type: provider, %s, implements: ours/Front, '
+                 'remappings: {topics: {/info: /usb/info}}}' % top,
+        dance_rapp='{compatibility: "rocon:/", launch: dance.launch, '
+                   'required_capabilities: [{name: ours/Camera}]}',
+        dance_launch='<launch/>')
+    defaults = tmp_path / 'defaults.yaml'
+    defaults.write_text('ours/Camera: ours/usb\n')
+    given = ('ours/dance', '--robot', ROBOT, '--package-path', tmp_path, '--defaults', defaults)
+    status, lines, err = apps(*given)
+    assert (status, err) == (0, '')
+    assert lines[-6:] == [
+        '  x  capability  ours/Camera by ours/usb', 'starts for it, in this order', '  ours/usb',
+        'ours/Camera by ours/usb', '  provides  topics  /image  a/A  on the robot /front/image',
+        '  provides  topics  /info   a/B  on the robot /usb/info']
+    assert apps_json(*given)[1]['apps'][0]['capabilities'][0]['provider'] == 'ours/usb'
+
+
 def test_one_app_shows_the_table_of_its_platform(apps):
     _, lines, _ = apps('cafe_cart/carry', '--robot', ROBOT, '--package-path', EXAMPLES)
     table = lines[lines.index('platform'):]

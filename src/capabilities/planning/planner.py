@@ -58,6 +58,7 @@ class Planner:
         self._instances = {one.capability: _Instance(one.capability, one.provider, True)
                            for one in self._running if not one.ends}
         self._candidates: Dict[str, Tuple[str, ...]] = {}
+        self._chosen: Dict[str, str] = {}       # the first provider for each need
         self._dependencies: Dict[_Instance, List[_Instance]] = {}
         self._first_need: Dict[_Instance, _Need] = {}
         self._preferences: Dict[str, Dict[str, None]] = {}      # of sets that keep their order
@@ -74,6 +75,7 @@ class Planner:
             if isinstance(instance, Fault):
                 self._faults.append(instance)
                 continue
+            self._chosen.setdefault(need.capability, instance.provider)
             if dependent is not None:
                 self._dependencies[dependent].append(instance)
             if instance not in self._dependencies:
@@ -138,7 +140,7 @@ class Planner:
         steps = [self._step(instance, launches) for instance in order]
         dependencies = {one.provider: [below.provider for below in needed]
                         for one, needed in self._dependencies.items()}
-        providers: Dict[str, str] = {}
+        providers = dict(self._chosen)
         for one in self._dependencies:
             providers.setdefault(one.capability, one.provider)
         return StartPlan(order=[step.provider for step in steps if not step.running],

@@ -53,11 +53,16 @@ def seen_names(needed: RequiredCapability, plan: StartPlan, exported: Workspace
         if name in below:
             below.update(plan.dependencies[name])
     remapped = merged_remappings(exported.providers[name] for name in plan.order if name in below)
-    return [] if interface is None else [
-        SeenName(kind=kind, grouping=grouping, name=name, type=element.type,
-                 robot_name=remapped.get(kind, {}).get(name, name),
-                 app_name=needed.remappings.get(kind, {}).get(name, name))
-        for kind, name, element, grouping in interface.elements()]
+    if interface is None:
+        return []
+    # A provider that was named may implement a semantic interface, which renames what it redefines.
+    implemented = interface if provider is None else exported.interface(
+        str(exported.providers[provider].implements)) or interface
+    return [SeenName(kind=kind, grouping=grouping, name=name, type=element.type,
+                     robot_name=remapped.get(kind, {}).get(renamed, renamed),
+                     app_name=needed.remappings.get(kind, {}).get(name, name))
+            for (kind, name, element, grouping), (_, renamed, _, _)
+            in zip(interface.elements(), implemented.elements())]
 
 
 def show_app(verdict: Verdict, robot: str, exported: Workspace,
