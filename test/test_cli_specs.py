@@ -236,6 +236,9 @@ def test_check_whose_report_cannot_be_written_is_2(specs, tmp_path):
     (tmp_path / 'file').write_text('')
     status, _, err = specs('check', EXAMPLES, '--junit', tmp_path / 'file' / 'check.xml')
     assert status == 2 and 'cannot write' in err
+    status, out, _ = specs('check', EXAMPLES, '--json', '--junit', tmp_path / 'file' / 'check.xml')
+    [error] = json.loads(out)['errors']
+    assert status == 2 and error['file'] == str(tmp_path / 'file' / 'check.xml')
 
 
 def test_check_of_a_bad_path_writes_no_report_that_it_passed(specs, tmp_path):

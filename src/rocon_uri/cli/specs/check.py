@@ -107,9 +107,9 @@ def main(args: argparse.Namespace) -> int:
     if args.warnings_as_errors:
         checked = checked._replace(findings=[
             replace(finding, severity=ERROR) for finding in checked.findings])
-    _show(args, checked, list(targets.packages), report)
     if args.junit is not None and not report.status:     # no report is a failure for catkin
         _write(junit_text(checked.findings, checked.files), args.junit, report)
+    _show(args, checked, list(targets.packages), report)
     errors = sum(finding.severity == ERROR for finding in checked.findings)
     if not args.quiet:
         say('rocon_uri: %s and %s in %s' % (
@@ -200,7 +200,9 @@ def _write(text: str, path: str, report: PackageReport) -> None:
         with open(path, 'w', encoding='utf-8') as file:
             file.write(text + '\n')
     except OSError as error:
-        report.bad('cannot write %s: %s' % (quoted_path(path), error.strerror))
+        message = 'cannot write %s: %s' % (quoted_path(path), error.strerror)
+        say('rocon_uri: ' + message)
+        report.note(message, path)
 
 
 def _counted(number: int, what: str) -> str:
