@@ -108,7 +108,7 @@ def test_errors_of_a_file_name_it(kind, tmp_path):
     path.write_bytes(b'name: \xff')
     with pytest.raises(invalid) as raised:
         from_file_path(path)
-    assert str(raised.value) == '%s:1:7: not UTF-8 text: invalid start byte' % path
+    assert str(raised.value) == '%s:1:7: not UTF-8 (Latin-1?): byte 0xff at offset 6' % path
     with open(path, encoding='utf-8') as file, pytest.raises(invalid) as raised:
         from_file(file)
     assert str(raised.value) == '%s: not utf-8 text: invalid start byte' % path

@@ -273,9 +273,11 @@ def test_data_can_be_pickled_and_copied_with_their_positions():
     ('a: \ud800', 'f:1:4: character U+D800 is not allowed'),
     ('"\\ud800"', 'f:1:4: found invalid Unicode character escape code while parsing a quoted '
                   'scalar'),
-    (b'a:\r\n  \xff', 'f:2:3: not UTF-8 text: invalid start byte'),
-    (b'a:\n - \xc3\xbc\xff', 'f:2:5: not UTF-8 text: invalid start byte'),
+    (b'a:\r\n  \xff', 'f:2:3: not UTF-8 (Latin-1?): byte 0xff at offset 6'),
+    (b'a:\n - \xc3\xbc\xff', 'f:2:5: not UTF-8 (Latin-1?): byte 0xff at offset 8'),
     (b'\xff\xfea', 'f:1:1: not UTF-16 text: truncated data'),
+    ('a: 1'.encode('utf-16-le'), 'f:1:1: UTF-16, not UTF-8: byte 0x00 at offset 1'),
+    ('a: 1'.encode('utf-16-be'), 'f:1:1: UTF-16, not UTF-8: byte 0x00 at offset 0'),
     ('x' * (MAX_SIZE + 1), 'f:1:1: larger than 1 MiB, which is all that is read'),
     (b'x' * (MAX_SIZE + 1), 'f:1:1: larger than 1 MiB, which is all that is read'),
     ('%TAG !a! x\n' * 101 + '--- a', 'f:1:1: more than 100 %TAG directives'),

@@ -7,6 +7,7 @@ from rocon_uri.cli.lines import read_lines
 from rocon_uri.cli.progress import beside_progress
 from rocon_uri.exceptions import RoconURIValueError, UnregisteredValue
 from rocon_uri.misplaced_name import misplaced_name
+from rocon_uri.sources.encoding import NOT_UTF8, byte_at
 from rocon_uri.sources.wording import quoted, quoted_path
 from rocon_uri.uri import parse, parse_once
 from rocon_uri.vocabulary import Vocabulary, current
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 __all__ = ['GivenURI', 'Report', 'not_utf8', 'say', 'shown_name']
 
 _LINES_NAMED = 5    # of those that have the same fault
-_NOT_UTF8 = 'not UTF-8 (Latin-1?)'
 
 
 def say(text: str) -> None:
@@ -165,7 +165,7 @@ def not_utf8(text: str) -> str:
         octets = text.encode('utf-8', 'surrogatepass' if error.object[error.start] < '\udc80'
                              else 'surrogateescape')
         offset = len(text[:error.start].encode('utf-8'))
-        return '%s: byte 0x%02x at offset %d' % (_NOT_UTF8, octets[offset], offset)
+        return '%s: %s' % (NOT_UTF8, byte_at(octets[offset], offset))
 
 
 class _FaultsOfFile:
@@ -205,7 +205,7 @@ class _FaultsOfFile:
 
     def _add(self, error: RoconURIValueError, number: int) -> None:
         """Report the fault of a line, or count it."""
-        if self._is_first(_NOT_UTF8 if not_utf8(error.uri) else error.problem, number):
+        if self._is_first(NOT_UTF8 if not_utf8(error.uri) else error.problem, number):
             self._report.bad_uri(error, self._file, number)
         if isinstance(error, UnregisteredValue):
             self._kinds[error.field, error.value] = error.problem

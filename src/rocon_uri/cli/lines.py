@@ -4,10 +4,10 @@ from __future__ import annotations
 import os
 import stat
 import sys
-from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 
 from rocon_uri.cli.progress import progress
 from rocon_uri.grammar import TEXT_LIMIT
+from rocon_uri.sources.encoding import utf16_problem
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 __all__ = ['read_lines']
 
 _BATCH = 1 << 17    # bytes
-_START = 200        # bytes that are enough to recognise UTF-16
 
 
 def read_lines(path: str) -> Iterator[List[str]]:
@@ -40,8 +39,9 @@ def read_lines(path: str) -> Iterator[List[str]]:
             while read:
                 octets = file.read1(_BATCH)
                 bar.update(len(octets))
-                if encoding == 'utf-8-sig' and octets:
-                    _refuse_utf16(octets)
+                problem = utf16_problem(octets) if encoding == 'utf-8-sig' else ''
+                if problem:
+                    raise UnicodeError('it is ' + problem)
                 read = bool(octets)
                 whole, newline, rest = (rest + octets).rpartition(b'\n')
                 if not read:
@@ -50,18 +50,6 @@ def read_lines(path: str) -> Iterator[List[str]]:
                 if whole or newline:
                     yield whole.decode(encoding, 'surrogateescape').split('\n')
                     encoding = 'utf-8'
-
-
-def _refuse_utf16(octets: bytes) -> None:
-    """Raise if a file that starts with these bytes is UTF-16: by its mark, or every other is 0."""
-    start = octets[:_START]
-    if start.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
-        zero = 0
-    else:
-        zero = next((first for first in (1, 0) if len(start) > 3 and not any(start[first::2])), -1)
-    if zero >= 0:
-        raise UnicodeError('it is UTF-16, not UTF-8: byte 0x%02x at offset %d'
-                           % (start[zero], zero))
 
 
 def _say_what_is_waited_for() -> None:

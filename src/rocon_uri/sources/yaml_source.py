@@ -45,6 +45,7 @@ import stat
 from os import PathLike
 from typing import Any, Union
 
+from rocon_uri.sources.encoding import MARKS_OF_UTF16, NOT_UTF8, byte_at, utf16_problem
 from rocon_uri.sources.yaml_data import (
     MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, end_position)
 
@@ -132,13 +133,16 @@ def _text(content: Union[str, bytes], file_name: str) -> str:
     if isinstance(content, str):
         text = content
     else:
-        encoding = 'utf-16' if content[:2] in (b'\xff\xfe', b'\xfe\xff') else 'utf-8'
+        encoding = 'utf-16' if content[:2] in MARKS_OF_UTF16 else 'utf-8'
+        if encoding == 'utf-8' and utf16_problem(content):
+            raise YamlError(utf16_problem(content), file_name, 1, 1)
         try:
             text = content.decode(encoding)
         except UnicodeDecodeError as error:
             before = content[:error.start].decode(encoding, 'replace')
-            raise YamlError('not %s text: %s' % (encoding.upper(), error.reason), file_name,
-                            *end_position(before)) from error
+            problem = ('%s: %s' % (NOT_UTF8, byte_at(content[error.start], error.start))
+                       if encoding == 'utf-8' else 'not UTF-16 text: ' + error.reason)
+            raise YamlError(problem, file_name, *end_position(before)) from error
     # Counting anywhere comes first: it takes a fiftieth of the time, and most texts need no more.
     if (text.count('%TAG') > _MAX_TAG_DIRECTIVES
             and len(_tag_directives(text)) > _MAX_TAG_DIRECTIVES):
