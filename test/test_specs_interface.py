@@ -107,7 +107,7 @@ def test_what_is_no_element_or_no_text_is_a_type_error(kind):
         with pytest.raises(TypeError, match="%s 'a' is .*, expected an InterfaceElement" % kind):
             add('a', element)
     for name in (3, None, b'a', ['a']):
-        with pytest.raises(TypeError, match='the name of a %s is .*, expected text' % kind):
+        with pytest.raises(TypeError, match='the name of (a|an) %s is .*, expected text' % kind):
             add(name, InterfaceElement('a', kind))
         with pytest.raises(TypeError, match='dynamic_parameter is .*, expected text'):
             interface.add_dynamic_parameter(name)

@@ -4,7 +4,7 @@ from __future__ import annotations
 from typing import Dict, Iterator, List, Optional, Tuple
 
 from capabilities.specs.common import NO_DESCRIPTION
-from rocon_uri.sources.wording import quoted, shown
+from rocon_uri.sources.wording import quoted, shown, with_article
 
 __all__ = ['GROUPINGS', 'SECTIONS', 'Interface', 'InterfaceElement']
 
@@ -188,4 +188,4 @@ class Interface:
 def _check_name(kind: str, name: object) -> None:
     """Refuse a name that a caller made of something else."""
     if not isinstance(name, str):
-        raise TypeError('the name of a %s is %s, expected text' % (kind, shown(name)))
+        raise TypeError('the name of %s is %s, expected text' % (with_article(kind), shown(name)))
