@@ -146,7 +146,7 @@ def package_from_manifest(path: str) -> Package:
     path = os.path.abspath(path)
     reader = _ManifestReader(path)
     reader.read(read_manifest(path))
-    names = [element.text for element in reader.elements[1:] if element.tag == 'name']
+    names = [element.text for element in reader.elements]
     if len(names) != 1:
         raise PackageError('The manifest must contain exactly one "name" tag', path)
     if not _is_name(names[0]):
@@ -161,16 +161,21 @@ def manifest_elements(path: str) -> List[Element]:
 
     :raises PackageError: as `package_from_manifest`, but not for the name
     """
-    reader = _ManifestReader(path)
+    reader = _ManifestReader(path, all_elements=True)
     reader.read(read_manifest(path))
     return reader.elements
 
 
 class _ManifestReader:
-    """Collects the elements and the exports of a manifest while expat reads it."""
+    """
+    Collects the names and the exports of a manifest while expat reads it.
 
-    def __init__(self, path: str) -> None:
+    With ``all_elements`` it collects these too, which takes twice as long.
+    """
+
+    def __init__(self, path: str, all_elements: bool = False) -> None:
         self.path = path
+        self._all = all_elements
         self.elements: List[Element] = []
         self.exports: List[Export] = []
         self._depth = 0
@@ -206,7 +211,8 @@ class _ManifestReader:
                                % quoted(attributes['format']), self.path)
         self._depth += 1
         if self._depth <= 2:
-            self.elements.append(Element(tag, attributes, '', self._place()))
+            if self._all or tag == 'name':
+                self.elements.append(Element(tag, attributes, '', self._place()))
             self._section = tag
             self._text.clear()
         elif self._section == 'export' and self._depth == 3:
@@ -216,7 +222,7 @@ class _ManifestReader:
             self._text.append('<%s>' % tag)
 
     def _end(self, tag: str) -> None:
-        if self._depth == 2:
+        if self._depth == 2 and (self._all or tag == 'name'):
             self.elements[-1] = self.elements[-1]._replace(
                 text=''.join(self._text).strip(' \n\r\t'))
         elif self._depth == 3 and self._section == 'export':
