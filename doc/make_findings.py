@@ -19,10 +19,10 @@ HEAD = '''\
 What the linter finds
 =====================
 
-``rocon_uri specs check`` (:doc:`command_line`) ends each finding with an id, which is stable.
-``rocon_uri specs check --explain ID`` prints what is said of it here. A finding that is right and
-does no harm can be ignored everywhere, with the option ``--ignore ID``, or on one line of a YAML
-file, with a comment on that line:
+``rocon_uri specs check`` (`The command line <command_line.rst>`__) ends each finding with an id,
+which is stable. ``rocon_uri specs check --explain ID`` prints what is said of it here. A finding
+that is right and does no harm can be ignored everywhere, with the option ``--ignore ID``, or on
+one line of a YAML file, with a comment on that line:
 
 .. code-block:: yaml
 

@@ -18,7 +18,7 @@ Registered values
 
 These values come with the package, each in its group. A group is a value too, and matches all of
 its members. ``rosrun rocon_uri rocon_uri fields`` shows them as a tree, with those that packages
-on your machine add: :doc:`vocabulary` says how.
+on your machine add: `The vocabulary <vocabulary.rst>`__ says how.
 '''
 
 

@@ -1,9 +1,11 @@
 """The documentation is true: Sphinx builds it, and its commands print what it says they print."""
+import io
 import os
 import re
 import shlex
 import subprocess
 import sys
+import textwrap
 
 import pytest
 from sources import ROOT
@@ -76,3 +78,35 @@ def test_sphinx_builds_it_without_a_warning(tmp_path):
         cwd=str(ROOT), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
     assert built.returncode == 0, built.stdout
     assert (tmp_path / 'index.html').exists()
+    pages = {path.name: path.read_text(encoding='utf-8') for path in tmp_path.glob('*.html')}
+    for name, text in pages.items():
+        for page, anchor in re.findall(r'href="(\w+\.\w+)(?:#([^"]*))?"', text):
+            assert page in pages, (name, page)
+            assert not anchor or 'id="%s"' % anchor in pages[page], (name, page, anchor)
+
+
+@pytest.mark.parametrize('link', sorted(set(re.findall(
+    r'\]\(([^)#]+\.rst)', PAGES[0].read_text(encoding='utf-8')))))
+def test_a_page_that_readme_links_to_reads_well_without_sphinx(link):
+    """As a code host renders it: no directive or role of Sphinx's own, no file that is included."""
+    core = pytest.importorskip('docutils.core')
+    path, messages = ROOT / link, io.StringIO()
+    core.publish_doctree(path.read_text(encoding='utf-8'), source_path=str(path),
+                         settings_overrides={'report_level': 2, 'warning_stream': messages,
+                                             'halt_level': 5, 'file_insertion_enabled': False})
+    assert messages.getvalue() == ''
+    for page in re.findall(r'<(\w+\.rst)(?:#.*)?>`__', path.read_text(encoding='utf-8')):
+        assert (path.parent / page).is_file(), page
+
+
+@pytest.mark.parametrize('page, shown', [
+    ('capability_specs', 'test/unit/specs/interfaces/RGBCamera.yaml'),
+    ('capability_specs', 'test/unit/specs/providers/navigation_nav_stack.yaml'),
+    ('capability_specs', 'test/specs/semantic_interfaces/FrontRGBCamera.yaml'),
+    ('rocon_uris', 'msg/RoconURI.msg'),
+    ('rocon_uris', 'the grammar')])
+def test_a_page_shows_a_file_as_it_is(page, shown):
+    from rocon_uri.grammar import EBNF
+    text = EBNF if shown == 'the grammar' else (ROOT / shown).read_text(encoding='utf-8')
+    text = textwrap.indent(text.strip('\n'), '   ')
+    assert '\n\n%s\n' % text in (ROOT / 'doc' / (page + '.rst')).read_text(encoding='utf-8')

@@ -10,17 +10,16 @@ import pytest
 from sources import ROOT
 
 PAGE = ROOT / 'doc' / 'tutorial.rst'
-BLOCK = re.compile(r'^\.\. code-block:: (\w+)\n(?:   :caption: (.*)\n)?\n((?:   .*\n|\n)+)',
-                   re.MULTILINE)
+BLOCK = re.compile(r'(?:^``([^`]+)``(?:, before ``([^`]+)``)?:\n\n)?'
+                   r'^\.\. code-block:: (\w+)\n\n((?:   .*\n|\n)+)', re.MULTILINE)
 COMMAND = re.compile(r'^\$ (.*)\n((?:(?!\$ ).*\n)*)', re.MULTILINE)
 
 pytestmark = pytest.mark.skipif(     # or else the script does not find the package
     not (PAGE.is_file() and (ROOT / 'src').is_dir()), reason='not in the source of rocon_uri')
 
 
-def write(folder, caption, text):
+def write(folder, name, before, text):
     """A file that the page shows; or lines of it that belong before one that is there."""
-    name, _, before = caption.partition(', before ')
     path = folder / name
     if before:
         whole = path.read_text()
@@ -37,10 +36,10 @@ def test_each_step_does_what_the_page_shows(tmp_path):
     environment = dict(os.environ, ROS_PACKAGE_PATH=str(tmp_path / 'src'), ROCON_URI_RULES='',
                        PATH='%s:%s' % (tmp_path / 'bin', os.environ['PATH']))
     commands = 0
-    for language, caption, body in BLOCK.findall(PAGE.read_text(encoding='utf-8')):
+    for name, before, language, body in BLOCK.findall(PAGE.read_text(encoding='utf-8')):
         text = textwrap.dedent(body).strip('\n') + '\n'
-        if caption:
-            write(tmp_path, caption, text)
+        if name:
+            write(tmp_path, name, before, text)
             continue
         assert language == 'console'
         for command, output in COMMAND.findall(text):
