@@ -37,7 +37,8 @@ def figures() -> Iterator[Dict[str, Any]]:
     Measure every spec.
 
     :returns: iterator of dicts with ``name`` (of the file), ``ratio`` (time to load the spec, by
-        the time of the reference), ``target`` (what the ratio may be), ``reference`` (what it is
+        the time of the reference), ``target`` (what the ratio may be; None for a spec with an
+        unknown key, for which near misses are looked for), ``reference`` (what it is
         measured against), ``seconds`` and ``reference_seconds`` (the times of one load)
     """
     logging.getLogger('capabilities.specs').addHandler(logging.NullHandler())
@@ -47,14 +48,16 @@ def figures() -> Iterator[Dict[str, Any]]:
         try:
             data = yaml.load(text, Loader=_reference_loader())
             loader = _LOADERS[data['spec_type']]
-            loader(text)
+            spec = loader(text)
         except (yaml.YAMLError, ValueError, KeyError, TypeError):
             continue    # another kind of file, or a bad example
         seconds, reference_seconds = _shortest(
             lambda: loader(text),                                           # noqa: B023
             lambda: yaml.load(text, Loader=_reference_loader()))            # noqa: B023
+        is_odd = any(warning.id == 'unknown-key' for warning in spec.warnings)
         yield {'name': str(path.relative_to(folder)), 'ratio': seconds / reference_seconds,
-               'target': TARGET, 'reference': 'yaml.load with %s' % _reference_loader().__name__,
+               'target': None if is_odd else TARGET,
+               'reference': 'yaml.load with %s' % _reference_loader().__name__,
                'seconds': seconds, 'reference_seconds': reference_seconds}
 
 
@@ -78,8 +81,8 @@ def main() -> int:
     """Print the figures; 1 if one misses its target."""
     missed = False
     for figure in figures():
-        missed |= figure['ratio'] > figure['target']
-        print('%(ratio)5.2f (target %(target).2f) of %(reference)s, %(name)s' % figure)
+        missed |= figure['target'] is not None and figure['ratio'] > figure['target']
+        print('%(ratio)5.2f (target %(target)s) of %(reference)s, %(name)s' % figure)
     return int(missed)
 
 
