@@ -5,6 +5,7 @@ import sys
 import xml.etree.ElementTree
 
 from docutils.nodes import reference as _reference
+from sphinx import version_info as _sphinx_version
 from sphinx.util import logging as _logging
 
 _here = os.path.dirname(os.path.abspath(__file__))
@@ -22,6 +23,13 @@ extensions = ['sphinx.ext.autodoc']
 autodoc_member_order = 'bysource'
 autodoc_default_options = {'members': True}
 default_role = 'py:obj'
+nitpicky = _sphinx_version >= (5, 3)      # Debian 12; older ones do not find all types
+nitpick_ignore = [      # others' types, and variables that stand for a type
+    ('py:class', 'os.PathLike'), ('py:class', 'CatkinPackage'), ('py:class', 'Engine'),
+    ('py:class', 'ColumnElement'), ('py:class', 'Message'), ('py:obj', 'sqlalchemy.engine.Engine'),
+    ('py:obj', 'sqlalchemy.sql.ColumnElement'), ('py:obj', 'sqlalchemy.pool.StaticPool'),
+    ('py:class', 'capabilities.specs._reading.Spec'),
+    ('py:class', 'rocon_uri.sources.located.ErrorT')]
 exclude_patterns = ['_build']
 highlight_language = 'none'     # most blocks are output or URIs; others say what they are
 html_theme = 'alabaster'
@@ -42,6 +50,22 @@ def _link_pages(app, doctree, page):
             _log.warning('no page %s', found.group(1), location=node)
 
 
+def _link_short_name(app, env, node, shown):
+    """A name in a docstring is as in the code there: without the module that it comes from."""
+    if node.get('refdomain') != 'py':
+        return None
+    domain, last_name = env.get_domain('py'), node['reftarget'].rpartition('.')[2]
+    found = [full for full in domain.objects if full.endswith('.' + last_name)]
+    if not found:
+        return None
+    near = node.get('py:module') or ''
+    node['reftarget'] = max(
+        sorted(found), key=lambda full: len(os.path.commonprefix([full, near])))
+    return domain.resolve_xref(env, node.get('refdoc', ''), app.builder, 'obj', node['reftarget'],
+                               node, shown)
+
+
 def setup(app):
     """Called by Sphinx."""
+    app.connect('missing-reference', _link_short_name)
     app.connect('doctree-resolved', _link_pages)

@@ -160,7 +160,7 @@ class FieldVocabulary:
         """
         This vocabulary with more values and groups.
 
-        :param rules: as `members` takes; a name that is known is the group that exists
+        :param rules: as ``members`` takes; a name that is known is the group that exists
         :param path: where the rules are, for errors
         :returns: FieldVocabulary
         :raises RulesError: for a name that is not a ROS base name, or is in two groups
@@ -170,7 +170,7 @@ class FieldVocabulary:
         return self.with_added(added)
 
     def with_added(self, added: Mapping[str, Optional[str]]) -> 'FieldVocabulary':
-        """This vocabulary with what `add_rules` has added."""
+        """This vocabulary with what ``add_rules`` has added."""
         return FieldVocabulary(self.name, {**self.parents, **added}) if added else self
 
 

@@ -118,7 +118,7 @@ class SpecLoader(Generic[Spec]):
         :param str string: the text of the spec
         :param str file_name: the name that errors give
         :returns: the spec
-        :raises InvalidSpec: as `from_dict`, or if the text is not YAML
+        :raises InvalidSpec: as ``from_dict``, or if the text is not YAML
         :raises AttributeError: if ``string`` is not a str
         """
         if not isinstance(string, str):
@@ -130,7 +130,7 @@ class SpecLoader(Generic[Spec]):
         Read the spec in a file that is open for reading, as text or binary.
 
         :returns: the spec
-        :raises InvalidSpec: as `from_dict`, or if the text is not YAML
+        :raises InvalidSpec: as ``from_dict``, or if the text is not YAML
         :raises OSError: if the file cannot be read
         """
         file_name = str(getattr(file_handle, 'name', '<file>'))
@@ -146,7 +146,7 @@ class SpecLoader(Generic[Spec]):
         Read the spec in the file of this path.
 
         :returns: the spec
-        :raises InvalidSpec: as `from_dict`, or if the text is not YAML
+        :raises InvalidSpec: as ``from_dict``, or if the text is not YAML
         :raises OSError: if the file does not exist or cannot be read
         """
         return self._load(read_file(file_path), str(file_path))
