@@ -78,3 +78,19 @@ def test_no_code_block_is_cut_off(browser: Any, pages: Path, width: int) -> None
     assert len(names) > 15
     cut_off = {name: overflowing(browser, pages / (name + '.html'), width) for name in names}
     assert {name: found for name, found in cut_off.items() if found} == {}
+
+
+def test_the_pictures_are_made_by_one_command(browser: Any, tmp_path: Path) -> None:
+    import screenshots
+    screenshots.main(tmp_path)
+    for name in ('fleet_report.png', 'finding.png'):
+        assert len((tmp_path / name).read_bytes()) > 10000
+        assert (ROOT / 'doc' / 'pictures' / name).is_file()
+
+
+def test_a_finding_in_a_terminal_is_in_colour(tmp_path: Path) -> None:
+    import screenshots
+    screenshots.faulty_workspace(tmp_path)
+    page = screenshots.as_page(screenshots.in_terminal(['specs', 'check', 'workspace'], tmp_path))
+    assert page.count('<span class="c31">error</span>: ') == 3
+    assert page.count('did you mean') == 3 and '3 errors and no warnings' in page

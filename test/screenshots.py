@@ -1,0 +1,133 @@
+"""
+Makes the pictures of the documentation that a browser shows.
+
+``/usr/bin/python3 test/screenshots.py`` writes them to ``doc/pictures``, or to the folder that it
+is given. It needs Debian's chromium, chromium-driver and python3-selenium.
+"""
+from __future__ import annotations
+
+import html
+import os
+import pty
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any, List, Match
+
+from sources import ROOT
+
+#: A terminal as a page: the text goes where %s is.
+TERMINAL = '''<!doctype html><meta charset="utf-8"><style>
+body { margin: 0; background: #1d2026; color: #e4e6ea;
+  font: 15px/1.45 "DejaVu Sans Mono", monospace }
+pre { margin: 0; padding: 18px 22px; font: inherit; white-space: pre-wrap }
+.c1 { font-weight: bold } .c2 { opacity: .6 } .c31 { color: #ff7b72 } .c32 { color: #7ee787 }
+.c33 { color: #f2cc60 } .c36 { color: #76e3ea }</style><pre>%s</pre>'''
+
+
+def as_page(text: str) -> str:
+    """The output of a command, with its colours, as a page."""
+    def styled(code: Match[str]) -> str:
+        if code.group(1) == '0':
+            return '</span>'
+        return '<span class="%s">' % ' '.join('c' + style for style in code.group(1).split(';'))
+    shown = re.sub(r'\x1b\[([\d;]+)m', styled, html.escape(text))
+    return TERMINAL % shown
+
+
+def in_terminal(arguments: List[str], folder: Path) -> str:
+    """What the command prints on a terminal, below a prompt with the command."""
+    ours, theirs = pty.openpty()
+    command = [sys.executable, str(ROOT / 'scripts' / 'rocon_uri'), *arguments]
+    process = subprocess.Popen(command, cwd=str(folder), stdout=theirs, stderr=theirs,
+                               stdin=subprocess.DEVNULL,
+                               env=dict(os.environ, TERM='xterm', COLUMNS='100', NO_COLOR='',
+                                        ROS_PACKAGE_PATH=''))
+    os.close(theirs)
+    printed = b''
+    try:
+        while True:
+            part = os.read(ours, 65536)
+            if not part:
+                break
+            printed += part
+    except OSError:     # Linux has no end of file here, but this
+        pass
+    os.close(ours)
+    process.wait()
+    return '$ rocon_uri %s\n%s' % (' '.join(arguments), printed.decode().replace('\r\n', '\n'))
+
+
+def faulty_workspace(folder: Path) -> None:
+    """The café as the examples have it, with three mistakes."""
+    shutil.copytree(str(ROOT / 'examples' / 'workspace'), str(folder / 'workspace'))
+    for name, right, wrong in (
+            ('cafe_rapps/rapps/serve/serve.rapp', 'turtlebot2|', 'turtelbot2|'),
+            ('cafe_rapps/rapps/greet/greet.rapp', 'greet.launch', 'gret.launch'),
+            ('cafe_capabilities/providers/espeak.yaml', '/Speech', '/Speach')):
+        path = folder / 'workspace' / name
+        text = path.read_text(encoding='utf-8')
+        assert right in text, name
+        path.write_text(text.replace(right, wrong, 1), encoding='utf-8')
+
+
+def open_browser() -> Any:
+    """Headless Chromium."""
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    options = webdriver.ChromeOptions()
+    options.binary_location = shutil.which('chromium') or 'chromium'
+    for argument in ('--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage',
+                     '--disable-background-networking', '--hide-scrollbars'):
+        options.add_argument(argument)
+    return webdriver.Chrome(service=Service(shutil.which('chromedriver')), options=options)
+
+
+def resize(browser: Any, width: int, height: int) -> None:
+    """Make a page so many pixels wide and high."""
+    browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
+        'width': width, 'height': height, 'deviceScaleFactor': 1, 'mobile': False})
+
+
+def fleet_report(browser: Any, folder: Path, path: Path) -> None:
+    """The apps of the café on all robots of the fleet, with the reasons of one cell."""
+    page = folder / 'fleet.html'
+    subprocess.run(
+        [sys.executable, 'scripts/rocon_uri', 'apps', '--package-path', 'examples/workspace',
+         '--robots-in', 'examples/fleet.txt', '--defaults', 'examples/workspace/defaults.yaml',
+         '--html', str(page)], cwd=str(ROOT), check=False)
+    resize(browser, 1200, 720)      # before, since the page is drawn anew when its size changes
+    browser.get(page.as_uri())
+    row = browser.find_elements('css selector', '#grid tbody tr[data-i]')[8]
+    next(cell for cell in row.find_elements('tag name', 'td') if cell.text.strip() == '.').click()
+    path.write_bytes(browser.get_screenshot_as_png())
+
+
+def finding(browser: Any, folder: Path, path: Path) -> None:
+    """What the linter finds in the café with mistakes."""
+    faulty_workspace(folder)
+    page = folder / 'finding.html'
+    page.write_text(as_page(in_terminal(['specs', 'check', 'workspace'], folder)), encoding='utf-8')
+    resize(browser, 1000, 100)
+    browser.get(page.as_uri())
+    resize(browser, 1000, browser.execute_script(
+        'return document.querySelector("pre").offsetHeight'))
+    path.write_bytes(browser.get_screenshot_as_png())
+
+
+def main(target: Path) -> None:
+    """Write all pictures to a folder."""
+    browser = open_browser()
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            fleet_report(browser, Path(folder), target / 'fleet_report.png')
+            finding(browser, Path(folder), target / 'finding.png')
+    finally:
+        browser.quit()
+
+
+if __name__ == '__main__':
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / 'doc' / 'pictures')
