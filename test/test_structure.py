@@ -27,6 +27,7 @@ LEVELS = (
     ('resource_index',),
     ('resource_database',),
     ('resource_directory',),
+    ('announcer',),
     ('apps',),
     ('workspace', 'spec_graph', 'spec_picture'),
     ('lint',),
