@@ -38,18 +38,25 @@ class DirectoryNode:
     """
     The directory of this node; ``rospy.init_node`` comes before.
 
-    It answers until the node ends.
+    It answers until the node ends. With ``~database`` it shares that with the directories of other
+    masters; ``~master``, else ``/run_id``, tells this master from the others.
+
+    :raises ValueError: for a ``~database`` that is not a URL, or without a name of the master
+    :raises NotImplementedError: for another database than PostgreSQL
+    :raises OSError: if the database does not answer
     """
 
     def __init__(self) -> None:
-        self._directory = ResourceDirectory(self._tell, rospy.logwarn)
+        url = rospy.get_param('~database', '')
+        self._changes = rospy.Publisher('~changes', ResourceChange, queue_size=10000)
+        self._directory = ResourceDirectory(self._tell, rospy.logwarn) if not url \
+            else self._shared(url)
         self._workspace: Optional[Workspace] = None
         self._lock = threading.Lock()
         #: the headers of connections by their ids, with the name that each may announce under
         self._connections: Dict[int, Tuple[Dict[str, str], Optional[str]]] = {}
-        self._has_changed = True
+        self._published: object = None      # the state of the list that was published last
         self._counted = 0, 0
-        self._changes = rospy.Publisher('~changes', ResourceChange, queue_size=10000)
         self._resources = rospy.Publisher('~resources', Resources, latch=True, queue_size=10)
         self._services = [
             rospy.Service('~find', FindResources, _answering(self._find)),
@@ -63,13 +70,30 @@ class DirectoryNode:
         rospy.on_shutdown(has_ended.set)
         while not has_ended.is_set():
             self._directory.expire()
-            if self._has_changed:
-                self._has_changed = False
-                resources = Resources(uris=self._directory.uris())
-                resources.header.stamp = rospy.Time.now()
-                self._publish(self._resources, resources)
+            self._directory.store()
+            try:
+                self._publish_resources()
+            except OSError:         # the database is away, which was said
+                pass
             self._say_counts()
             has_ended.wait(_PERIOD)
+        self._directory.store()
+
+    def _shared(self, url: str) -> ResourceDirectory:
+        from rocon_uri.shared_directory import SharedDirectory      # it needs SQLAlchemy
+        master = rospy.get_param('~master', '') or rospy.get_param('/run_id', '')
+        if not master:
+            raise ValueError('nothing tells this master from others, expected the parameter '
+                             '/run_id, which roslaunch and roscore set, or ~master')
+        return SharedDirectory(str(url), str(master), self._tell, rospy.logwarn)
+
+    def _publish_resources(self) -> None:
+        state = self._directory.state()
+        if state != self._published:
+            resources = Resources(uris=self._directory.uris())
+            resources.header.stamp = rospy.Time.now()
+            self._publish(self._resources, resources)
+            self._published = state
 
     def _take(self, message: Announcement) -> None:
         """Take an announcement, in the thread of its connection."""
@@ -112,7 +136,6 @@ class DirectoryNode:
                                'the master does not know that name at the address it comes from')
 
     def _tell(self, change: Change) -> None:
-        self._has_changed = True
         message = ResourceChange(
             what=change.what, uri=str(change.uri), announcer=change.announcer, key=change.key,
             before='' if change.before is None else str(change.before))
@@ -188,5 +211,10 @@ def main() -> int:
               % quoted(arguments[0]), file=sys.stderr)
         return 2
     rospy.init_node('resource_directory')
-    DirectoryNode().spin()
+    try:
+        node = DirectoryNode()
+    except (ImportError, NotImplementedError, OSError, ValueError) as error:
+        print('resource_directory: %s' % ' '.join(str(error).split()), file=sys.stderr)
+        return 2
+    node.spin()
     return 0

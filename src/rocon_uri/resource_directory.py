@@ -99,6 +99,7 @@ class ResourceDirectory:
         self._entries: Dict[str, Dict[str, _Entry]] = {}    # by announcer and key
         self._size = 0              # of all of them
         self._index = ResourceIndex()       # its payloads: how many announce a resource
+        self._version = 0           # another one when other resources are there
         self._next_expiry = float('inf')    # none expires before
         self._shown: Set[Tuple[str, str]] = set()
         #: how many announcements were refused
@@ -212,6 +213,15 @@ class ResourceDirectory:
         """
         return explain(request, uri)
 
+    def store(self) -> None:
+        """Make what was announced count; called once a second. In memory it does so at once."""
+
+    def state(self) -> Tuple[object, ...]:
+        """What differs when other resources are there."""
+        with self._lock:
+            self.expire()
+            return (self._version,)
+
     def uris(self) -> List[str]:
         """All resources, each once, in the order in which they appeared."""
         with self._lock:
@@ -247,11 +257,14 @@ class ResourceDirectory:
         self._changed(Change(what, uri, None, announcer, key))
 
     def _hold(self, uri: RoconURI) -> None:
-        self._index[uri] = (self._index.get(uri) or 0) + 1
+        holders = self._index.get(uri) or 0
+        self._version += not holders
+        self._index[uri] = holders + 1
 
     def _release(self, uri: RoconURI) -> None:
         holders = self._index[uri]
         if holders == 1:
+            self._version += 1
             del self._index[uri]
         else:
             self._index[uri] = holders - 1
