@@ -39,7 +39,8 @@ def test_the_stub_has_the_names_that_are_imported_when_they_are_used():
 @pytest.mark.parametrize('package', ['rocon_uri', 'rocon_uri.sources', 'rocon_uri.apps'])
 def test_the_modules_in_a_stub_are_there(package):
     for name, module in stub_names(package).items():
-        if module is None and name != 'resource_database':      # which needs SQLAlchemy
+        # which need SQLAlchemy and ROS
+        if module is None and name not in ('resource_database', 'announcer'):
             assert getattr(importlib.import_module(package), name).__name__ == (
                 '%s.%s' % (package, name))
 
@@ -55,7 +56,8 @@ def named_modules():
     """The modules of rocon_uri that a page names."""
     for page in PAGES:
         if page.is_file():
-            text = page.read_text(encoding='utf-8')
+            # a class or constant with its module in front is there for what links to it
+            text = re.sub(r'(?m)^\.\. (autoclass|data)::.*', '', page.read_text(encoding='utf-8'))
             for name in re.findall(r'\brocon_uri((?:\.[a-z_]+)+)', text):
                 path = SOURCE.joinpath('rocon_uri', *name[1:].split('.'))
                 if 'resource_database.' in name:    # of functions that are called as modules
@@ -72,7 +74,8 @@ def test_a_module_that_a_page_names_is_reachable_after_the_import_of_the_package
         above, _, name = module.rpartition('.')
         assert name in stub_names(above), '%s is not in the stub of %s' % (module, above)
     program = 'import rocon_uri\n' + '\n'.join(
-        module for module in modules if 'resource_database' not in module)
+        module for module in modules
+        if 'resource_database' not in module and module != 'rocon_uri.announcer')     # needs ROS
     subprocess.run([sys.executable, '-c', program], check=True,
                    env=dict(os.environ, PYTHONPATH=str(SOURCE)))
 

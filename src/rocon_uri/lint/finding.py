@@ -33,7 +33,7 @@ class Finding(Located):
     severity: str
     #: one sentence without the place
     problem: str
-    #: which kind of fault it is, one of those in `rocon_uri.lint.explanations`
+    #: which kind of fault it is, one that ``specs check --explain`` knows
     id: str
 
     @property

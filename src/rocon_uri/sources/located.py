@@ -33,7 +33,7 @@ def located(problem: str, file_name: str, line: Optional[int], column: Optional[
 class Located:
     """What errors, warnings and findings have in common; ``str`` is FILE:LINE:COLUMN: PROBLEM."""
 
-    #: the kind of fault, in kebab case: a stable name that `rocon_uri.lint.explanations` explains
+    #: the kind of fault, in kebab case: a stable name that ``specs check --explain`` explains
     id: str
     #: what is wrong, without the place
     problem: str
