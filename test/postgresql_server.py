@@ -39,7 +39,7 @@ class Server:
         self._databases = 0
         self._as_user: List[str] = []
         if os.geteuid() == 0:
-            self._as_user = ['runuser', '-u', 'postgres', '--']
+            self._as_user = ['/usr/sbin/runuser', '-u', 'postgres', '--']
             shutil.chown(self.folder, 'postgres')
         try:
             subprocess.run(

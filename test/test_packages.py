@@ -115,8 +115,13 @@ def test_a_package_that_is_removed_while_it_is_read(
         tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     make_package(tmp_path, 'a')
     gone = make_package(tmp_path, 'b') / 'package.xml'
-    monkeypatch.setattr(packages, 'package_folders', lambda path, errors: [
-        *package_folders(path, errors), gone.unlink()][:-1])
+
+    def folders(path: str, errors: List[PackageError]) -> List[str]:
+        found = list(package_folders(path, errors))
+        gone.unlink()
+        return found
+
+    monkeypatch.setattr(packages, 'package_folders', folders)
     errors: List[PackageError] = []
     assert list(find_packages([str(tmp_path)], errors)) == ['a']
     assert list(map(str, errors)) == ['%s: No such file or directory' % gone]
