@@ -151,15 +151,18 @@ class ResourceDatabase:
             if asked.parts:
                 cursor = self._dialect.streaming_cursor(connection)
                 cursor.execute(self._dialect.written(asked.select(ordered)), asked.parameters)
-            yield request
-            rows = cursor.fetchmany(_ROWS_AT_ONCE) if asked.parts else []
-            while rows:
-                for row in rows:
-                    uri = read_resource(row[0])
-                    if asked.check is None or uri.name_pattern is not None \
-                            or asked.check(uri.name_text):
-                        yield uri
-                rows = cursor.fetchmany(_ROWS_AT_ONCE) if len(rows) == _ROWS_AT_ONCE else []
+            try:
+                yield request
+                rows = cursor.fetchmany(_ROWS_AT_ONCE) if asked.parts else []
+                while rows:
+                    for row in rows:
+                        uri = read_resource(row[0])
+                        if asked.check is None or uri.name_pattern is not None \
+                                or asked.check(uri.name_text):
+                            yield uri
+                    rows = cursor.fetchmany(_ROWS_AT_ONCE) if len(rows) == _ROWS_AT_ONCE else []
+            finally:
+                self._dialect.close(cursor)
 
     def count(self, request: Resource) -> int:
         """
@@ -220,7 +223,10 @@ class ResourceDatabase:
                     questions.clear()
                 if asked.undecided is None:     # else the next time there is a new budget for it
                     questions[key] = asked
-            yield connection, cursor, asked
+            try:
+                yield connection, cursor, asked
+            finally:
+                self._dialect.close(cursor)
 
     def _undecided(self, cursor: DBAPICursor, asked: Question) -> List[RoconURI]:
         if asked.undecided is None:
@@ -248,6 +254,7 @@ class ResourceDatabase:
                 'AND (expires IS NULL OR expires > {})'.format(self._dialect.now)),
                 {'digest': digest})
             row: Optional[Tuple[Optional[str]]] = cursor.fetchone()
+            self._dialect.close(cursor)
             return row
 
     def __iter__(self) -> Iterator[RoconURI]:

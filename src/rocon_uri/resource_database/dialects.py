@@ -65,6 +65,9 @@ class Dialect:
         """A cursor that does not hold all that it answers."""
         raise NotImplementedError
 
+    def close(self, cursor: DBAPICursor) -> None:
+        """Leave no statement of a cursor open, where that matters."""
+
     def kinds(self, numbers: List[int]) -> Condition:
         """The kind is one of these."""
         raise NotImplementedError

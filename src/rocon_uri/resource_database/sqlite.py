@@ -43,6 +43,9 @@ class SQLite(Dialect):
     def streaming_cursor(self, connection: Connection) -> DBAPICursor:
         return connection.connection.cursor()
 
+    def close(self, cursor: DBAPICursor) -> None:
+        cursor.close()      # CPython 3.8 crashes where it collects one with its connection later
+
     def kinds(self, numbers: List[int]) -> Condition:
         return Condition('kind IN (SELECT value FROM json_each(%(kinds)s))',
                          {'kinds': json.dumps(numbers)})
