@@ -27,7 +27,6 @@ LEVELS = (
     ('resource_index',),
     ('resource_database',),
     ('resource_directory',),
-    ('announcer', 'shared_directory'),
     ('apps',),
     ('workspace', 'spec_graph', 'spec_picture'),
     ('lint',),
