@@ -296,7 +296,7 @@ class TestNothingIsKept:
     @staticmethod
     def held_by(index):
         """What an index refers to, but not what resources and their fields refer to."""
-        found, waiting = {}, [vars(index)]
+        found, waiting = {}, [*vars(index).values()]
         while waiting:
             here = waiting.pop()
             if id(here) not in found and not isinstance(here, type):
