@@ -7,7 +7,6 @@ counts; both are run in turn, and the least of 15 rounds is taken. It needs SQLA
 a PostgreSQL, which is started as the tests start theirs, and 1 GB for temporary files. With the
 environment variable ROBOTS there are fewer robots, and other answers than those by hand.
 """
-import gc
 import os
 import re
 import subprocess
@@ -19,6 +18,7 @@ from pathlib import Path
 
 from bench_index import VOCABULARY_REQUESTS
 from fleet import fleet
+from measure import once
 
 from rocon_uri import parse
 
@@ -46,7 +46,7 @@ def figures():
             engine = open_engine(url)
             register(engine)
             database = ResourceDatabase(engine)
-            seconds, _ = timed(database.add_all, texts)
+            seconds, _ = once(database.add_all, texts, clock=time.perf_counter)
             yield {'name': '%s: load %s robots' % (name, format(SIZE, ',')), 'ratio': seconds,
                    'target': 120, 'reference': 'a second'}
             if engine.dialect.name == 'postgresql':
@@ -89,9 +89,9 @@ def asked(name, engine, database, request, statement):
     """The time of one request, and the rows that are read for it."""
     ours, by_hand = [], []
     for _ in range(ROUNDS):
-        seconds, expected = timed(run_by_hand, engine, statement)
+        seconds, expected = once(run_by_hand, engine, statement, clock=time.perf_counter)
         by_hand.append(seconds)
-        seconds, found = timed(exhausted, database, request)
+        seconds, found = once(exhausted, database, request, clock=time.perf_counter)
         ours.append(seconds)
         if found != expected and SIZE == 1000000:
             raise RuntimeError('%s: %d by hand, %d found' % (request, expected, found))
@@ -179,15 +179,3 @@ def execute(connection, statement):
     """Run a statement and keep what it changes."""
     connection.connection.cursor().execute(statement)
     connection.connection.commit()
-
-
-def timed(function, *args):
-    """The seconds that a function takes by the clock, and what it returns."""
-    gc.collect()
-    gc.disable()
-    try:
-        start = time.perf_counter()
-        result = function(*args)
-        return time.perf_counter() - start, result
-    finally:
-        gc.enable()

@@ -58,6 +58,12 @@ def pytest_sessionfinish() -> None:
         raise RuntimeError('\n'.join(_unhandled))
 
 
+@pytest.fixture
+def no_packages_around(monkeypatch):
+    """What is found is what a test says, and nothing on the package path of who runs it."""
+    monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)
+
+
 @pytest.fixture(scope='module')
 def master(tmp_path_factory):
     """A master of the module's own, and the package test_nodes (`ros_master.Master`)."""

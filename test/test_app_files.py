@@ -22,8 +22,7 @@ Run = Callable[..., Tuple[int, List[str], str]]
 
 
 @pytest.fixture(autouse=True)
-def no_packages_around(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)
+def no_workspace_around(no_packages_around: None, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv('CMAKE_PREFIX_PATH', raising=False)
 
 

@@ -22,9 +22,7 @@ CAMERA = ('name: Camera\nspec_version: 1\nspec_type: interface\ninterface:\n'
 USB = 'name: usb\nspec_version: 1\nspec_type: provider\nimplements: theirs/Camera\n'
 
 
-@pytest.fixture(autouse=True)
-def no_packages_around(monkeypatch):
-    monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)
+pytestmark = pytest.mark.usefixtures('no_packages_around')
 
 
 @pytest.fixture

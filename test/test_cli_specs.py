@@ -21,9 +21,7 @@ needs_corpus = pytest.mark.skipif(not CORPUS, reason='ROCON_URI_CORPUS is not se
 needs_dot = pytest.mark.skipif(not shutil.which('dot'), reason='graphviz is not installed')
 
 
-@pytest.fixture(autouse=True)
-def no_packages_around(monkeypatch):
-    monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)
+pytestmark = pytest.mark.usefixtures('no_packages_around')
 
 
 @pytest.fixture

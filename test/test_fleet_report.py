@@ -25,9 +25,7 @@ APPS, FLEET = str(EXAMPLES / 'apps.txt'), str(EXAMPLES / 'fleet.txt')
 Report = Dict[str, Any]
 
 
-@pytest.fixture(autouse=True)
-def no_packages_around(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)
+pytestmark = pytest.mark.usefixtures('no_packages_around')
 
 
 def uris(path: str) -> List[str]:

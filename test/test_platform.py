@@ -137,7 +137,7 @@ def test_the_system_is_the_nearest_registered_one_to_what_os_detect_says(
 @pytest.mark.parametrize('with_rospkg', [False, True])
 def test_the_system_says_itself_what_it_is(
         with_rospkg, os_release, system, tmp_path, monkeypatch):
-    if with_rospkg:     # it knows no derivative, as of elementary OS
+    if with_rospkg:     # which does not know elementary OS
         os_detect = pytest.importorskip('rospkg.os_detect')
         monkeypatch.delenv('ROS_OS_OVERRIDE', raising=False)
         monkeypatch.setattr(os_detect.OsDetect, 'detect_os', lambda self: ('pop', '8', 'odin'))

@@ -65,9 +65,7 @@ def workspace(folder: Path, providers: List[Tuple[str, str, str]]) -> str:
     return str(folder)
 
 
-@pytest.fixture(autouse=True)
-def no_packages_around(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)
+pytestmark = pytest.mark.usefixtures('no_packages_around')
 
 
 def app_reasons(path: str, capsys: Any) -> List[Dict[str, Any]]:

@@ -5,7 +5,7 @@ import tempfile
 from pathlib import Path
 
 import yaml
-from fuzz.damage import damaged, damaged_tree, files
+from fuzz.damage import damaged_yaml, files
 from fuzz.findings import check_findings
 from made_packages import make_package
 
@@ -43,9 +43,6 @@ SCALARS = ['apps', 'app', 'display', 'description', 'platform', 'interface', 'la
            'a/b/c', 'gone/dance',
            '../../../etc/passwd', 'all', 'pr2', 'robot', 'pr2|kobuki', '*', 'fetch15', 'a' * 5000,
            '\0', '\U0001f916', '', ' ', None, True, 0, 1.5, 10 ** 300, float('nan')]
-TOKENS = ['{', '}', '[', ']', ': ', '? ', '- ', '&a ', '*a', '<<: *a', '!!str ', '!a ', '|\n', '"',
-          "'", '#', '%', '---\n', '\n', '\n  ', '\t', '\0', '\x85', '\u2028', '\\', '~', 'yes', '=']
-TOKENS += [scalar for scalar in SCALARS if isinstance(scalar, str)]
 
 
 def make(rng):
@@ -57,10 +54,7 @@ def make(rng):
 
 def make_text(rng, kind):
     number = rng.randrange(len(GOOD[kind]))
-    if rng.random() < 0.5:
-        return yaml.safe_dump(damaged_tree(rng, TREES[kind][number], SCALARS),
-                              default_flow_style=rng.choice((None, True, False)))
-    return damaged(rng, GOOD[kind][number], TOKENS)
+    return damaged_yaml(rng, GOOD[kind][number], TREES[kind][number], SCALARS)
 
 
 def check(texts):

@@ -5,10 +5,17 @@ import copy
 import os
 from pathlib import Path
 
+import yaml
+
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = [ROOT / 'examples', ROOT / 'test/specs', ROOT / 'test/unit', ROOT / 'test/workspace']
 if os.environ.get('ROCON_URI_CORPUS'):
     FOLDERS.append(Path(os.environ['ROCON_URI_CORPUS']))
+
+#: what has a meaning in YAML
+YAML_TOKENS = [
+    '{', '}', '[', ']', ': ', '? ', '- ', '&a ', '*a', '<<: *a', '!!str ', '!a ', '|\n', '"', "'",
+    '#', '%', '---\n', '\n', '\n  ', '\t', '\0', '\x85', '\u2028', '\\', '~', 'yes', '=']
 
 
 def files(*patterns):
@@ -40,6 +47,22 @@ def damaged(rng, text, tokens):
             inserted = rng.choice(tokens)
         text = text[:start] + inserted + text[end:]
     return text
+
+
+def damaged_yaml(rng, text, tree, scalars):
+    """
+    A text of YAML that is damaged as a text or as data.
+
+    :param random.Random rng: decides what
+    :param str text: a good one
+    :param tree: what it says
+    :param scalars: sequence of what else to put in
+    """
+    if rng.random() < 0.5:
+        return yaml.safe_dump(damaged_tree(rng, tree, scalars),
+                              default_flow_style=rng.choice((None, True, False)))
+    return damaged(rng, text, YAML_TOKENS + [
+        scalar for scalar in scalars if isinstance(scalar, str)])
 
 
 def damaged_tree(rng, tree, scalars):

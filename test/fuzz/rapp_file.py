@@ -8,7 +8,7 @@ import yaml
 from capabilities.discovery import (
     package_index_from_package_path, spec_file_index_from_package_index,
     spec_index_from_spec_file_index)
-from fuzz.damage import ROOT, damaged, damaged_tree, files
+from fuzz.damage import ROOT, damaged_yaml, files
 from fuzz.findings import check_findings
 from made_packages import make_package
 
@@ -47,9 +47,6 @@ SCALARS = ['display', 'description', 'icon', 'launch', 'compatibility', 'parent_
            'rocon://pr2/bob', 'rocon:/*/(a|aa)+b', 'cafe_capabilities/Camera',
            'cafe_capabilities/FrontCamera', 'std_msgs/String', 'camera/image_raw', '/scan',
            '~rate', None, True, 0, 1.5, 10 ** 300, float('nan')]
-TOKENS = ['{', '}', '[', ']', ': ', '? ', '- ', '&a ', '*a', '<<: *a', '!!str ', '!a ', '|\n', '"',
-          "'", '#', '%', '---\n', '\n', '\n  ', '\t', '\0', '\x85', '\u2028', '\\', '~', 'yes', '=']
-TOKENS += [scalar for scalar in SCALARS if isinstance(scalar, str)]
 
 
 def make(rng):
@@ -61,10 +58,7 @@ def make(rng):
 
 def make_text(rng, kind):
     number = rng.randrange(len(GOOD[kind]))
-    if rng.random() < 0.5:
-        return yaml.safe_dump(damaged_tree(rng, TREES[kind][number], SCALARS),
-                              default_flow_style=rng.choice((None, True, False)))
-    return damaged(rng, GOOD[kind][number], TOKENS)
+    return damaged_yaml(rng, GOOD[kind][number], TREES[kind][number], SCALARS)
 
 
 def check(texts):
