@@ -324,8 +324,9 @@ def test_the_command_says_what_is_outside_the_package(workspace):
     ('operating_system: [linux/ours]', '1:20',
      "operating_system 'linux/ours' is not a ROS base name"),
     ('hardware_platform:\n  "*": [pr2]', '2:3', "hardware_platform '*' is not a ROS base name"),
-    ('application_framework:\n- 1.0', '2:3', 'application_framework 1.0 is not text'),
-    ('name: [bob]', '1:1', "'name' is not a field with registered values"),
+    ('application_framework:\n- 1.0', '2:3',
+     'a value of application_framework is 1.0, expected text (in quotes)'),
+    ('name: [bob]', '1:1', "unknown field 'name' in the rules"),
     ('hardware_platform: ' + '[' * 200, '1:119', 'nested deeper than 100'),
     ('hardware_platform: &a\n  robot: *a', '2:10', "alias '*a' is inside"),
 ])

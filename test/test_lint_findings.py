@@ -16,8 +16,8 @@ from rocon_uri.sources.yaml_source import load
 
 RAPP = 'display: Dance\ndescription: A dance\ncompatibility: rocon:/pr2\nlaunch: dance.launch\n'
 
-# the functions that take an id as their last argument
-_NAMED = {'add', 'check', 'check_exists', 'error', 'fault', 'warn', 'with_id', 'Finding', '_error'}
+# the functions that take an id as their last argument; a Finding has it by keyword
+_NAMED = {'add', 'check', 'check_exists', 'error', 'fault', 'warn', 'with_id', '_error'}
 
 
 def ids_in_source():
@@ -26,11 +26,12 @@ def ids_in_source():
     for path in [path for package in ('rocon_uri', 'capabilities')
                  for path in (SOURCE / package).rglob('*.py')]:
         for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
-            if isinstance(node, ast.Call) and node.args:
+            if isinstance(node, ast.Call) and (node.args or node.keywords):
                 function = node.func
                 name = getattr(function, 'attr', getattr(function, 'id', ''))
-                last = node.args[-1]
-                if name in _NAMED and isinstance(getattr(last, 'value', None), str) and (
+                last = (node.args or [None])[-1] if name in _NAMED else node.keywords[-1].value \
+                    if name == 'Finding' else None
+                if isinstance(getattr(last, 'value', None), str) and (
                         re.fullmatch('[a-z]+(-[a-z]+)+|cycle', last.value)):
                     found.add(last.value)
             elif isinstance(node, ast.Assign) and getattr(node.targets[0], 'id', '') == 'id' and (

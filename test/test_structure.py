@@ -121,3 +121,29 @@ def test_any_is_for_what_is_unread() -> None:
                 for line in path.read_text(encoding='utf-8').splitlines()
                 if not re.match(r'\s*(from \S+ )?import ', line))
     assert found <= ANY_AT_MOST
+
+
+def test_records_are_built_by_keyword() -> None:
+    trees = {module: ast.parse(path.read_text(encoding='utf-8'))
+             for module, path in MODULES.items()}
+    records: Dict[str, Set[str]] = {}       # what is a class elsewhere is left out below
+    others: Set[str] = set()
+    for module, tree in trees.items():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ClassDef):
+                heads = [ast.dump(head) for head in node.bases + node.decorator_list]
+                members = [item for item in node.body if isinstance(item, ast.AnnAssign)]
+                if len(members) >= 3 and any(
+                        "'NamedTuple'" in head or "'dataclass'" in head for head in heads):
+                    records.setdefault(node.name, set()).add(module)
+                else:
+                    others.add(node.name)
+    assert {'Finding', 'Package', 'Verdict'} <= set(records)
+    by_position = [
+        '%s:%d: %s' % (module, node.lineno, node.func.id)
+        for module, tree in trees.items() for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+        and node.func.id in records and (node.func.id not in others
+                                         or module in records[node.func.id])
+        and node.args and not isinstance(node.args[-1], ast.Starred)]
+    assert by_position == []

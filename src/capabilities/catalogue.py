@@ -83,7 +83,7 @@ def catalogue_of(spec_index: SpecIndex, parameters: Parameters) -> Catalogue:
     paths = {**spec_index.interface_paths, **spec_index.semantic_interface_paths,
              **spec_index.provider_paths}
     contents = {name: _content(spec, paths[name]) for name, spec in spec_index.specs.items()}
-    return Catalogue(spec_index, defaults, contents)
+    return Catalogue(spec_index=spec_index, defaults=defaults, contents=contents)
 
 
 def load_specs(package_paths: Iterable[str], parameters: Parameters) -> SpecIndex:

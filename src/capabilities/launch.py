@@ -78,7 +78,7 @@ class Launch:
         self._stopping: Optional[threading.Timer] = None
         self._ended = threading.Event()
         self._failure = ''                  # what roslaunch said, and the last report of its kind
-        self._died = self._missing = Report('')
+        self._died = self._missing = Report(kind='')
         if run is not None:
             environment = dict(environment, **{MARK: run.mark(name)})
         reading, writing = os.pipe()
@@ -160,7 +160,7 @@ class Launch:
             output = threading.Thread(target=_pass_on, args=(self._process.stdout,), daemon=True)
             output.start()
         if self.real_path is None:
-            _call(reported, Report('started'))
+            _call(reported, Report(kind='started'))
         for report in self._read_reports():
             _call(reported, report)
         os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOWAIT)

@@ -60,7 +60,8 @@ class LostWatch:
             _logger.warning('the status of the capability server is not known: %s', error)
             return
         with self._lock:
-            self._used.setdefault(interface, _Use(entry, status.header.stamp, address))
+            self._used.setdefault(interface, _Use(entry=entry, stamp=status.header.stamp,
+                                                  address=address))
         self.status(status)
 
     def _entry(self, status: CapabilityStatuses, interface: str, provider: Optional[str]) -> str:

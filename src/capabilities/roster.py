@@ -56,9 +56,9 @@ class Roster:
 
     def could_not_start(self, interface: str, provider: str, text: str) -> None:
         """Remember that a capability could not be started."""
-        self.failures[interface] = Failure(
-            interface, provider, started=False, uses=0, dependents=(), since=self._clock(),
-            exit_code=NO_EXIT_CODE, text=text)
+        self.failures[interface] = Failure(interface=interface, provider=provider, started=False,
+                                           uses=0, dependents=(), since=self._clock(),
+                                           exit_code=NO_EXIT_CODE, text=text)
 
     def forget_failures(self, interfaces: Collection[str]) -> None:
         """Forget the failures of all capabilities but these."""
@@ -97,6 +97,6 @@ class Roster:
 
     def _failure(self, instance: CapabilityInstance, exit_code: int, text: str) -> Failure:
         dependents = tuple(other.interface for other in self.dependents(instance))
-        return Failure(instance.interface, instance.provider, started=instance.started,
-                       uses=instance.reference_count, dependents=dependents, since=self._clock(),
-                       exit_code=exit_code, text=text)
+        return Failure(interface=instance.interface, provider=instance.provider,
+                       started=instance.started, uses=instance.reference_count,
+                       dependents=dependents, since=self._clock(), exit_code=exit_code, text=text)

@@ -21,8 +21,9 @@ def running_providers(roster: Roster) -> List[RunningProvider]:
     >>> running_providers(Roster(lambda: 0.0))
     []
     """
-    return [RunningProvider(instance.interface, instance.provider, instance.launch_file,
-                            roster.stopping(instance.interface) is instance)
+    return [RunningProvider(capability=instance.interface, provider=instance.provider,
+                            launch_file=instance.launch_file,
+                            ends=roster.stopping(instance.interface) is instance)
             for instance in roster.instances]
 
 

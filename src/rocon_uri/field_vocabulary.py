@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from itertools import accumulate
 
-from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.wording import quoted, shown
 from rocon_uri.grammar import NAME_LIMIT
 from rocon_uri.sources.ros_names import is_legal_base_name
 
@@ -199,7 +199,8 @@ def add_rules(field: str, known: Mapping[str, Optional[str]], added: Dict[str, O
 
 def _checked_name(field: str, name: object, path: Tuple[object, ...]) -> str:
     if not isinstance(name, str):
-        raise RulesError('%s %r is not text; put it in quotes' % (field, name), path)
+        raise RulesError('a value of %s is %s, expected text%s' % (
+            field, shown(name), '' if name is None else ' (in quotes)'), path)
     if not is_legal_base_name(name) or len(name) > NAME_LIMIT:
         raise RulesError('%s %s is not a ROS base name (a letter, then letters, digits and _)'
                          % (field, quoted(name)), path)

@@ -86,14 +86,15 @@ def spec_graph(exported: Workspace, robot: Optional[RoconURI] = None,
     judged_for = robot or parse('rocon:/', exported.vocabulary)
     verdicts = [runnable(app, judged_for, exported.spec_index, defaults, exported.launch_files)
                 for app in apps]
-    nodes = {name: Node(name, spec.spec_type.replace('_', ' '))
+    nodes = {name: Node(name=name, kind=spec.spec_type.replace('_', ' '))
              for name, spec in exported.spec_index.specs.items()}
     for app in exported.apps():
-        nodes[app_id(app)] = Node(app.name, 'app' if app.is_implementation else 'virtual app')
+        nodes[app_id(app)] = Node(name=app.name,
+                                  kind='app' if app.is_implementation else 'virtual app')
     edges = list(_edges(exported))
     for edge in edges:
-        nodes.setdefault(edge.end, Node(edge.end.lstrip('#'), 'missing', FAILS, 'missing',
-                                        'no package exports it'))
+        nodes.setdefault(edge.end, Node(name=edge.end.lstrip('#'), kind='missing', state=FAILS,
+                                        fault='missing', problem='no package exports it'))
     if names:
         reached = _reached([app_id(app) for app in apps], edges)
         nodes = {key: node for key, node in nodes.items() if key in reached}
@@ -107,17 +108,18 @@ def spec_graph(exported: Workspace, robot: Optional[RoconURI] = None,
 def _edges(exported: Workspace) -> Iterator[Edge]:
     index = exported.spec_index
     for name, semantic in index.semantic_interfaces.items():
-        yield Edge(name, semantic.redefines, 'redefines', None)
+        yield Edge(start=name, end=semantic.redefines, kind='redefines', preferred=None)
     for name, provider in index.providers.items():
-        yield Edge(name, provider.implements, 'implements', None)
+        yield Edge(start=name, end=provider.implements, kind='implements', preferred=None)
         for needed in provider.dependencies.values():
-            yield Edge(name, needed.capability_name, 'depends on', needed.preferred_provider)
+            yield Edge(start=name, end=needed.capability_name, kind='depends on',
+                       preferred=needed.preferred_provider)
     for app in exported.apps():
         parent = getattr(app, 'parent_name', None)
         if parent is not None:
-            yield Edge(app_id(app), '#' + parent, 'inherits from', None)
+            yield Edge(start=app_id(app), end='#' + parent, kind='inherits from', preferred=None)
         for required in app.required_capabilities:
-            yield Edge(app_id(app), required.name, 'requires', None)
+            yield Edge(start=app_id(app), end=required.name, kind='requires', preferred=None)
 
 
 def _reached(starts: Iterable[str], edges: Iterable[Edge]) -> Set[str]:

@@ -11,7 +11,7 @@ import itertools
 import os
 from _thread import RLock       # as functools does: threading takes longer than parsing
 
-from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.wording import expectation, shown
 from rocon_uri.field_vocabulary import FieldVocabulary, RulesError, add_rules, members
 from rocon_uri.grammar import VOCABULARY_FIELDS
 
@@ -152,8 +152,8 @@ def _added(known: Mapping[str, Parents], rules: object) -> Dict[str, Parents]:
     added: Dict[str, Parents] = {name: {} for name in VOCABULARY_FIELDS}
     for name, below, path in members(rules):
         if not isinstance(name, str) or name not in VOCABULARY_FIELDS:
-            raise RulesError('%s is not a field with registered values; these are: %s'
-                             % (quoted(str(name)), ', '.join(VOCABULARY_FIELDS)), path)
+            raise RulesError('unknown field %s in the rules%s' % (
+                shown(name), expectation(name, VOCABULARY_FIELDS)), path)
         add_rules(name, known[name], added[name], below, path)
     return added
 

@@ -60,10 +60,10 @@ class Launches:
 
         :returns: str, the real path of its launch file; None if it has none, or it does not exist
         """
-        launch = _Launch(capability, spec.name, asked_for)
+        launch = _Launch(capability=capability, provider=spec.name, asked_for=asked_for)
         if spec.nodelet_manager and not self._nodelet_manager:
-            self._faults.append(Fault(FaultKind.NO_NODELET_MANAGER, capability, asked_for,
-                                      provider=spec.name))
+            self._faults.append(Fault(kind=FaultKind.NO_NODELET_MANAGER, capability=capability,
+                                      asked_for=asked_for, provider=spec.name))
         if self._look_at is None or not spec.launch_file:
             return None
         folder = os.path.dirname(self._spec_index.provider_path(spec.name))
@@ -72,8 +72,8 @@ class Launches:
             self.unread.append(os.path.join(folder, spec.launch_file))
             return None
         if file.fault is not None:
-            self._faults.append(Fault(FaultKind(file.fault.kind), capability, asked_for,
-                                      provider=spec.name, launch=file.fault))
+            self._faults.append(Fault(kind=FaultKind(file.fault.kind), capability=capability,
+                                      asked_for=asked_for, provider=spec.name, launch=file.fault))
         if file.real_path is not None:
             self._launched.setdefault(file.real_path, []).append(launch)
         return file.real_path
@@ -90,6 +90,6 @@ class Launches:
         if not in_use and len(launched) == 1:
             return
         running = in_use[0].provider if in_use else None
-        yield Fault(FaultKind.LAUNCH_SHARED, launched[-1].capability, launched[-1].asked_for,
-                    provider=providers[-1], launch_file=path, running=running,
-                    sharers=(() if running is None else (running,)) + providers)
+        yield Fault(kind=FaultKind.LAUNCH_SHARED, capability=launched[-1].capability,
+                    asked_for=launched[-1].asked_for, provider=providers[-1], launch_file=path,
+                    running=running, sharers=(() if running is None else (running,)) + providers)

@@ -55,7 +55,8 @@ class Planner:
         self._spec_index = spec_index
         self._defaults = defaults or {}
         self._running = list(running)
-        self._instances = {one.capability: _Instance(one.capability, one.provider, True)
+        self._instances = {one.capability: _Instance(capability=one.capability,
+                                                     provider=one.provider, running=True)
                            for one in self._running if not one.ends}
         self._candidates: Dict[str, Tuple[str, ...]] = {}
         self._chosen: Dict[str, str] = {}       # the first provider for each need
@@ -68,7 +69,7 @@ class Planner:
     def add(self, asked_for: str, preferred: Optional[str] = None) -> None:
         """Find an instance for a capability, and for all that it depends on."""
         waiting: List[Tuple[_Need, Optional[_Instance]]] = [
-            (_Need(asked_for, preferred, asked_for), None)]
+            (_Need(capability=asked_for, preferred=preferred, asked_for=asked_for), None)]
         while waiting:
             need, dependent = waiting.pop()
             instance = self._instance(need)
@@ -83,8 +84,9 @@ class Planner:
                 self._first_need[instance] = need
                 if not instance.running:    # what a running one depends on is not checked
                     needed = self._provider(instance.provider).dependencies.values()
-                    waiting += [(_Need(one.capability_name, one.preferred_provider, asked_for,
-                                       instance.provider), instance)
+                    waiting += [(_Need(capability=one.capability_name,
+                                       preferred=one.preferred_provider, asked_for=asked_for,
+                                       required_by=instance.provider), instance)
                                 for one in reversed(list(needed))]
 
     def choose(self, capability: str, preferred: Optional[str], asked_for: str,
@@ -94,7 +96,8 @@ class Planner:
                   implements: Optional[str] = None, candidates: Tuple[str, ...] = (),
                   semantic_candidates: Tuple[str, ...] = (),
                   known: Collection[str] = ()) -> Fault:
-            return Fault(kind, capability, asked_for, required_by=required_by, provider=provider,
+            return Fault(kind=kind, capability=capability, asked_for=asked_for,
+                         required_by=required_by, provider=provider,
                          is_default=provider is not None and not preferred, implements=implements,
                          candidates=candidates, semantic_candidates=semantic_candidates,
                          known=known)
@@ -133,8 +136,8 @@ class Planner:
             order += component
             if len(component) > 1 or component[0] in self._dependencies[component[0]]:
                 cycle = cycle_in(component, self._dependencies)
-                faults.append(Fault(FaultKind.CYCLE, cycle[0].capability,
-                                    self._first_need[cycle[0]].asked_for,
+                faults.append(Fault(kind=FaultKind.CYCLE, capability=cycle[0].capability,
+                                    asked_for=self._first_need[cycle[0]].asked_for,
                                     cycle=tuple(one.provider for one in cycle)))
         launches = Launches(self._spec_index, self._running, look_at, nodelet_manager)
         steps = [self._step(instance, launches) for instance in order]
@@ -163,7 +166,7 @@ class Planner:
             return shared
         if need.preferred:
             self._preferences.setdefault(need.capability, {})[chosen] = None
-        return _Instance(implements, chosen, False)
+        return _Instance(capability=implements, provider=chosen, running=False)
 
     def _provider(self, name: str) -> CapabilityProvider:
         """The provider of a name that there is."""
@@ -199,10 +202,11 @@ class Planner:
             preferred = self._preferences.get(capability, {})
             if len(implementing) > 1 or len(preferred) > 1:
                 candidates = tuple({**implementing, **preferred})
-                last = _Instance(str(self._provider(candidates[-1]).implements), candidates[-1],
-                                 False)
-                faults.append(Fault(FaultKind.CONFLICT, capability,
-                                    self._first_need[last].asked_for, candidates=candidates))
+                last = _Instance(capability=str(self._provider(candidates[-1]).implements),
+                                 provider=candidates[-1], running=False)
+                faults.append(Fault(kind=FaultKind.CONFLICT, capability=capability,
+                                    asked_for=self._first_need[last].asked_for,
+                                    candidates=candidates))
         return faults
 
     def _step(self, instance: _Instance, launches: Launches) -> PlannedProvider:
@@ -212,5 +216,6 @@ class Planner:
         if not running:
             launch_file = launches.add(capability, self._provider(provider), need.asked_for)
         depends_on = dict.fromkeys(below.capability for below in self._dependencies[instance])
-        return PlannedProvider(capability, provider, running=running, launch_file=launch_file,
-                               depends_on=tuple(depends_on), required_by=need.required_by)
+        return PlannedProvider(capability=capability, provider=provider, running=running,
+                               launch_file=launch_file, depends_on=tuple(depends_on),
+                               required_by=need.required_by)

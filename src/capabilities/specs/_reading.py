@@ -48,7 +48,9 @@ class SpecReading(Reading):
 
     def warn(self, problem: str, place: Place, fault_id: str) -> None:
         """Note something odd, which is logged if the spec can be read."""
-        self.warnings.append(SpecWarning(problem, self.file_name, *place, fault_id))
+        line, column = place
+        self.warnings.append(SpecWarning(problem=problem, file_name=self.file_name, line=line,
+                                         column=column, id=fault_id))
 
     def has_room(self) -> bool:
         """Is a further unknown key noted?"""

@@ -146,10 +146,11 @@ def runnable(app: App, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
         launch_files)
     own = (_rapp_reasons(app, robot_uri, launch_files) if isinstance(app, Rapp) else
            _app_file_reasons(app, robot, robot_type, launch_files))
-    reasons = (*own, *(Reason(ReasonKind.CAPABILITY if fault.is_of_the_capability else
-                              ReasonKind.DEPENDENCY, fault.kind.value, fault=fault)
+    reasons = (*own, *(Reason(kind=ReasonKind.CAPABILITY if fault.is_of_the_capability else
+                              ReasonKind.DEPENDENCY, id=fault.kind.value, fault=fault)
                        for fault in plan.faults))
-    return Verdict(app, tuple(reason for reason in reasons if reason.id not in ignore), plan)
+    return Verdict(app=app, reasons=tuple(reason for reason in reasons if reason.id not in ignore),
+                   plan=plan)
 
 
 def platform_uri(app: App, vocabulary: Vocabulary) -> Optional[RoconURI]:
@@ -178,13 +179,14 @@ def _rapp_reasons(rapp: Rapp, robot: Union[str, RoconURI], launch_files: LaunchF
     if not rapp.is_implementation:
         lacks = ' and no '.join(key for key in ('compatibility', 'launch')
                                 if getattr(rapp, key) is None)
-        yield Reason(ReasonKind.VIRTUAL, 'virtual', 'it is virtual: it has no %s' % lacks)
+        yield Reason(kind=ReasonKind.VIRTUAL, id='virtual',
+                     problem='it is virtual: it has no %s' % lacks)
     if rapp.compatibility is not None:
         yield from _platform_reasons(rapp.compatibility, robot)
     if rapp.launch is not None:
         fault = launch_files.look_at(rapp.launch, os.path.dirname(rapp.path)).fault
         if fault is not None:
-            yield Reason(ReasonKind.LAUNCH, fault.kind, str(fault))
+            yield Reason(kind=ReasonKind.LAUNCH, id=fault.kind, problem=str(fault))
 
 
 def _platform_reasons(compatibility: str, robot: Union[str, RoconURI]) -> Iterator[Reason]:
@@ -192,13 +194,14 @@ def _platform_reasons(compatibility: str, robot: Union[str, RoconURI]) -> Iterat
     try:
         explanation = explain(parse(compatibility, vocabulary), robot)
     except RoconURIValueError as error:
-        yield Reason(ReasonKind.PLATFORM, 'platform', str(error))
+        yield Reason(kind=ReasonKind.PLATFORM, id='platform', problem=str(error))
         return
     if not explanation:
         wrong = ', '.join('%s is %s' % (comparison.field, comparison.b)
                           for comparison in explanation.fields if not comparison.is_compatible)
-        yield Reason(ReasonKind.PLATFORM, 'platform', "'%s' does not include this robot: %s" % (
-            explanation.a.short, wrong), explanation)
+        yield Reason(kind=ReasonKind.PLATFORM, id='platform',
+                     problem="'%s' does not include this robot: %s" % (explanation.a.short, wrong),
+                     explanation=explanation)
 
 
 def _app_file_reasons(app: AppFile, robot: RoconURI, robot_type: Optional[str],
@@ -208,14 +211,17 @@ def _app_file_reasons(app: AppFile, robot: RoconURI, robot_type: Optional[str],
     else:       # app_manager knows no vocabulary, and compares texts
         types = robot.hardware_platform.list if robot_type is None else [robot_type]
         if app.platform not in types and types != ['*']:
-            yield Reason(ReasonKind.PLATFORM, 'platform', 'platform %s is not that of this robot, '
-                         '%s (compared as text, since %s is not registered)' % (
-                             quoted(app.platform), quoted('|'.join(types)), quoted(app.platform)))
+            yield Reason(
+                kind=ReasonKind.PLATFORM, id='platform',
+                problem='platform %s is not that of this robot, %s (compared as text, since %s is '
+                        'not registered)' % (quoted(app.platform), quoted('|'.join(types)),
+                                             quoted(app.platform)))
     for key, found in app.resources.items():
         if found.kind is not None and (key != 'icon' or found.kind == AMBIGUOUS):
-            yield Reason(ReasonKind.LAUNCH, '%s-%s' % (key, found.kind), '%s %s %s' % (
-                WHAT_RESOURCES_ARE[key], quoted(found.name), found.problem))
+            yield Reason(
+                kind=ReasonKind.LAUNCH, id='%s-%s' % (key, found.kind),
+                problem='%s %s %s' % (WHAT_RESOURCES_ARE[key], quoted(found.name), found.problem))
         elif key == 'launch':
             fault = launch_file_fault(found, launch_files)
             if fault is not None:
-                yield Reason(ReasonKind.LAUNCH, fault.kind, str(fault))
+                yield Reason(kind=ReasonKind.LAUNCH, id=fault.kind, problem=str(fault))

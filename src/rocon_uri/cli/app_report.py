@@ -32,7 +32,8 @@ def write_app_report(args: argparse.Namespace, apps: List[App], exported: Worksp
     """
     apps = [app for app in apps if app.is_implementation]
     uris = [platform_uri(app, exported.vocabulary) for app in apps]
-    fleet = FleetReport([Column(app.name, _about(app), uri) for app, uri in zip(apps, uris)],
+    fleet = FleetReport([Column(label=app.name, about=_about(app), uri=uri)
+                         for app, uri in zip(apps, uris)],
                         'robots', 'apps')
     same: Dict[str, List[str]] = {}     # the reasons that are those of all robots, by file
     for robot in _robots(args, exported, report):

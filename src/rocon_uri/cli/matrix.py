@@ -62,7 +62,8 @@ def print_table(matches: Matches, form: str) -> None:
 def write_page(matches: Matches, path: str, report: Report) -> None:
     """Write it as a page; a report is told if that fails."""
     from rocon_uri.cli.fleet_report import Column, FleetReport, write_fleet    # see above
-    columns = [Column(given.label, given.text, given.uri) for given in matches.requests]
+    columns = [Column(label=given.label, about=given.text, uri=given.uri)
+               for given in matches.requests]
     page = FleetReport(columns, 'resources', 'requests')
     for (uri, text, _), _ in matches:
         page.add(text, uri)

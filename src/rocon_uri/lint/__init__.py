@@ -150,9 +150,10 @@ def _path(fault: Fault) -> str:
 
 def _finding(fault: Fault) -> Finding:
     if isinstance(fault, OSError):
-        return Finding(_path(fault), None, None, ERROR,
-                       'cannot be read: %s' % (fault.strerror or fault), 'cannot-read')
-    return Finding(_path(fault), fault.line, fault.column, ERROR, fault.sentence, fault.id)
+        return Finding(file_name=_path(fault), line=None, column=None, severity=ERROR,
+                       problem='cannot be read: %s' % (fault.strerror or fault), id='cannot-read')
+    return Finding(file_name=_path(fault), line=fault.line, column=fault.column, severity=ERROR,
+                   problem=fault.sentence, id=fault.id)
 
 
 def _shown(findings: Iterable[Finding], seconds: Mapping[str, float]) -> Checked:

@@ -64,8 +64,9 @@ def _check_launch(app: AppFile, file: CheckedFile, workspace: Workspace) -> None
     found = app.resources.get('launch')
     fault = found and found.path and launch_file_fault(found, workspace.launch_files)
     if fault and fault.line is not None:
-        file.findings.append(Finding(os.path.normpath(fault.path), fault.line, fault.column, ERROR,
-                                     'launch file %s' % fault.problem, fault.kind))
+        file.findings.append(Finding(file_name=os.path.normpath(fault.path), line=fault.line,
+                                     column=fault.column, severity=ERROR,
+                                     problem='launch file %s' % fault.problem, id=fault.kind))
     elif fault:
         file.error(str(fault), app.position('launch'), fault.kind)
 

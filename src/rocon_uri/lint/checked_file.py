@@ -138,8 +138,9 @@ class CheckedFile(Reading):
         """
         fault = launch_files.look_at(name, os.path.dirname(os.path.abspath(self.path))).fault
         if fault is not None and fault.line is not None:
-            self.findings.append(Finding(os.path.normpath(fault.path), fault.line, fault.column,
-                                         ERROR, 'launch file %s' % fault.problem, fault.kind))
+            self.findings.append(Finding(file_name=os.path.normpath(fault.path), line=fault.line,
+                                         column=fault.column, severity=ERROR,
+                                         problem='launch file %s' % fault.problem, id=fault.kind))
         elif fault is not None:
             is_in_package = fault.kind == MISSING and os.path.isfile(
                 os.path.join(self.package_folder, name))

@@ -76,7 +76,7 @@ def read_configuration(package_folder: str) -> Tuple[List[Ignored], List[Finding
         place = value_place(entries, index)
         fault_id, _, glob = file.text(entry, 'an item of ignore', place).partition(':')
         if fault_id in EXPLANATIONS:
-            ignored.append(Ignored(package_folder, fault_id, glob or '*'))
+            ignored.append(Ignored(folder=package_folder, id=fault_id, glob=glob or '*'))
         elif fault_id:
             file.warn('%s is not the id of a finding%s' % (
                 quoted(fault_id), did_you_mean(near_misses(fault_id, EXPLANATIONS))), place,

@@ -71,7 +71,7 @@ def _entries(data: object, kind: str, file: CheckedFile, group: str = '') -> Ite
             if _is_group(item.data):
                 yield from _entries(item.data, kind, file, group)
             else:
-                yield _Entry(kind, item, group)
+                yield _Entry(kind=kind, source=item, group=group)
     elif isinstance(data, dict):
         mapping = CheckedMapping(file, data, 'a group')
         named = data.get('group')

@@ -54,8 +54,8 @@ def find_targets(given: Iterable[str], around: Mapping[str, Package]) -> Targets
             finder.are_whole = False
             if not finder.add_part(name) and name.endswith(_SUFFIXES):
                 finder.findings.append(Finding(
-                    os.path.abspath(name), None, None, WARNING,
-                    'the file is in no package, so nobody sees it', 'no-package'))
+                    file_name=os.path.abspath(name), line=None, column=None, severity=WARNING,
+                    problem='the file is in no package, so nobody sees it', id='no-package'))
         elif name in around:
             finder.add(around[name])
         else:

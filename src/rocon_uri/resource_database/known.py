@@ -79,8 +79,8 @@ def refreshed(known: Optional[Known], dialect: Dialect, cursor: DBAPICursor) -> 
     if known is None or count != len(known.kinds) or known.vocabulary is not vocabulary:
         cursor.execute(_KINDS)
         kinds = {number: _read_kind(Fields(*fields)) for number, *fields in cursor.fetchall()}
-        known = Known(vocabulary, kinds, known.patterns if known else {},
-                      known.last_pattern if known else 0)
+        known = Known(vocabulary=vocabulary, kinds=kinds, patterns=known.patterns if known else {},
+                      last_pattern=known.last_pattern if known else 0)
     if last > known.last_pattern:
         cursor.execute(dialect.written(_PATTERNS), {'last': known.last_pattern})
         patterns = {pattern: set(kinds) for pattern, kinds in known.patterns.items()}

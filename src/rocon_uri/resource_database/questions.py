@@ -62,12 +62,12 @@ def question(request: RoconURI, known: Known, dialect: Dialect) -> Question:
     """
     fitting = known.kinds_that_fit(request)
     if fitting == []:
-        return Question([], {})
+        return Question(parts=[], parameters={})
     kinds = Condition('', {}) if fitting is None else dialect.kinds(fitting)
     live = '(resource.expires IS NULL OR resource.expires > %s)' % dialect.now
     name = NameRequest(request.name.pattern, _verdicts(request.name_text))
     if name.pattern.is_any:
-        return Question([_where(kinds.text, live)], kinds.parameters)
+        return Question(parts=[_where(kinds.text, live)], parameters=kinds.parameters)
     names = dialect.names(name.pattern, kinds.text,
                           fitting is not None and len(fitting) <= _FEW_KINDS)
     meeting, unknown = _pairs(known, known.kinds if fitting is None else set(fitting), name)
@@ -79,9 +79,11 @@ def question(request: RoconURI, known: Known, dialect: Dialect) -> Question:
         parts.append(patterned % pairs.text)
         parameters.update(pairs.parameters)
     undecided = dialect.pairs(unknown) if unknown else None
-    return Question(parts, parameters,
-                    name.pattern.matches if is_too_large(name.pattern) else None,
-                    undecided and Question([patterned % undecided.text], undecided.parameters))
+    return Question(
+        parts=parts, parameters=parameters,
+        check=name.pattern.matches if is_too_large(name.pattern) else None,
+        undecided=undecided and Question(parts=[patterned % undecided.text],
+                                         parameters=undecided.parameters))
 
 
 def _where(*conditions: str) -> str:

@@ -54,8 +54,9 @@ def fields_of(uri: RoconURI) -> Fields:
     :param RoconURI uri: the resource
     :returns: Fields
     """
-    return Fields(uri.concert_name, _sorted(uri.hardware_platform),
-                  _sorted(uri.application_framework), _sorted(uri.operating_system))
+    return Fields(concert_name=uri.concert_name, hardware_platform=_sorted(uri.hardware_platform),
+                  application_framework=_sorted(uri.application_framework),
+                  operating_system=_sorted(uri.operating_system))
 
 
 def digest_of(uri: RoconURI) -> bytes:
@@ -85,9 +86,9 @@ def row_of(uri: RoconURI, number: int, kind: int, payload: Optional[str],
     :returns: Row
     """
     is_pattern = uri.name_pattern is not None
-    return Row(digest_of(uri), number, kind, uri.name_text,
-               None if is_pattern else uri.name_text[::-1], int(is_pattern), str(uri), payload,
-               expires)
+    return Row(digest=digest_of(uri), id=number, kind=kind, name=uri.name_text,
+               reversed=None if is_pattern else uri.name_text[::-1], is_pattern=int(is_pattern),
+               uri=str(uri), payload=payload, expires=expires)
 
 
 def payload_text(payload: object) -> Optional[str]:

@@ -26,7 +26,7 @@ import re
 from typing import Any, Callable, Iterator, List, Optional, Sequence, Union
 
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place, with_id
-from rocon_uri.sources.wording import did_you_mean, near_misses, shown
+from rocon_uri.sources.wording import did_you_mean, expectation, near_misses, shown
 from rocon_uri.sources.yaml_data import YamlError, key_place, place_of, value_place
 from rocon_uri.sources.yaml_source import load
 
@@ -67,8 +67,7 @@ class Reading:
 
     def expectation(self, found: object, known: Sequence[str]) -> str:
         """The end of an error: what was probably meant, or else all that could have been."""
-        meant = did_you_mean(near_misses(found, known)) if isinstance(found, str) else ''
-        return meant or ' (expected %s)' % ', '.join(known)
+        return expectation(found, known)
 
     def data(self, content: Union[str, bytes]) -> object:
         """What a text holds, read as YAML; None if it was refused."""

@@ -198,7 +198,9 @@ def _read(name: str, folder: str) -> LaunchFile:
         names_nodelet_manager = any(argument in content for argument in _NODELET_MANAGER)
         _check_xml(content)
     except _Refused as refused:
-        fault = LaunchFault(refused.kind, refused.problem, name, path, *refused.place)
+        line, column = refused.place
+        fault = LaunchFault(kind=refused.kind, problem=refused.problem, name=name, path=path,
+                            line=line, column=column)
         if refused.kind == MISSING:
             real_path = None
             problem, alternatives = not_a_path(name, folder, package) or (
@@ -206,11 +208,13 @@ def _read(name: str, folder: str) -> LaunchFile:
             fault = replace(fault, problem=problem, alternatives=alternatives)
     except OSError as error:
         problem = 'cannot be read: %s' % (error.strerror or error)
-        fault = LaunchFault(UNREADABLE, problem, name, path)
+        fault = LaunchFault(kind=UNREADABLE, problem=problem, name=name, path=path)
     except ValueError:      # there is a NUL in it, or a lone surrogate
         real_path = None
-        fault = LaunchFault(UNREADABLE, 'is not the name of a file', name, path)
-    return LaunchFile(path, real_path, fault, names_nodelet_manager)
+        fault = LaunchFault(kind=UNREADABLE, problem='is not the name of a file', name=name,
+                            path=path)
+    return LaunchFile(path=path, real_path=real_path, fault=fault,
+                      names_nodelet_manager=names_nodelet_manager)
 
 
 def _content(path: str) -> bytes:

@@ -152,7 +152,8 @@ def package_from_manifest(path: str) -> Package:
     if not _is_name(names[0]):
         raise PackageError('Package name %s does not follow naming conventions (letters, digits, _ '
                            'and -)' % quoted(names[0]), path)
-    return Package(names[0], os.path.dirname(path), path, reader.exports)
+    return Package(name=names[0], folder=os.path.dirname(path), manifest=path,
+                   exports=reader.exports)
 
 
 def manifest_elements(path: str) -> List[Element]:
@@ -212,11 +213,14 @@ class _ManifestReader:
         self._depth += 1
         if self._depth <= 2:
             if self._all or tag == 'name':
-                self.elements.append(Element(tag, attributes, '', self._place()))
+                self.elements.append(Element(tag=tag, attributes=attributes, text='',
+                                             place=self._place()))
             self._section = tag
             self._text.clear()
         elif self._section == 'export' and self._depth == 3:
-            self.exports.append(Export(tag, attributes, '', *self._place()))
+            line, column = self._place()
+            self.exports.append(Export(tag=tag, attributes=attributes, text='', line=line,
+                                       column=column))
             self._text.clear()
         elif self._section == 'export':
             self._text.append('<%s>' % tag)
@@ -243,9 +247,11 @@ def as_package(package: Union[Package, CatkinPackage]) -> Package:
     if isinstance(package, Package):
         return package
     manifest = os.path.abspath(package.filename)
-    exports = [Export(export.tagname, export.attributes, _text_of(export.content or ''), None, None)
+    exports = [Export(tag=export.tagname, attributes=export.attributes,
+                      text=_text_of(export.content or ''), line=None, column=None)
                for export in package.exports]
-    return Package(package.name, os.path.dirname(manifest), manifest, exports)
+    return Package(name=package.name, folder=os.path.dirname(manifest), manifest=manifest,
+                   exports=exports)
 
 
 def _text_of(content: str) -> str:

@@ -82,28 +82,34 @@ class Resources:
         """
         found = self._find(name, self._programs)
         return found if found.path is None or _is_executable(found.path) else Resource(
-            name, None, MISSING, 'is not executable')
+            name=name, path=None, kind=MISSING, problem='is not executable')
 
     def _find(self, name: str, files: Callable[[Package, str], List[str]],
               extension: str = '') -> Resource:
         package_name, slash, file = name.partition('/')
         if not package_name or not file or '/' in file:
-            return Resource(name, None, MISSING, 'is not of the form package/file')
+            return Resource(name=name, path=None, kind=MISSING,
+                            problem='is not of the form package/file')
         package = self._packages.get(package_name)
         if package is None:
             meant = did_you_mean(self._near_misses(package_name, self._packages))
-            return Resource(name, None, MISSING, 'does not exist: there is no package %s%s' % (
-                quoted(package_name), meant))
+            return Resource(
+                name=name, path=None, kind=MISSING,
+                problem='does not exist: there is no package %s%s' % (quoted(package_name), meant))
         paths = files(package, file + extension)
         if len(paths) == 1:
-            return Resource(name, paths[0])
+            return Resource(name=name, path=paths[0])
         if paths:
-            return Resource(name, None, AMBIGUOUS, 'is ambiguous: package %s has %s' % (
-                quoted(package_name), ' and '.join(
-                    quoted(os.path.relpath(path, package.folder)) for path in paths[:3])))
-        return Resource(name, None, MISSING, 'does not exist: package %s has no file %s%s' % (
-            quoted(package_name), quoted(file + extension),
-            did_you_mean(self._alike(package, file, extension))))
+            return Resource(
+                name=name, path=None, kind=AMBIGUOUS,
+                problem='is ambiguous: package %s has %s' % (
+                    quoted(package_name), ' and '.join(
+                        quoted(os.path.relpath(path, package.folder)) for path in paths[:3])))
+        return Resource(
+            name=name, path=None, kind=MISSING,
+            problem='does not exist: package %s has no file %s%s' % (
+                quoted(package_name), quoted(file + extension),
+                did_you_mean(self._alike(package, file, extension))))
 
     def _programs(self, package: Package, file: str) -> List[str]:
         beside = [os.path.dirname(os.path.dirname(package.folder))]     # of PREFIX/share/package

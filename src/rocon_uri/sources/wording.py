@@ -3,10 +3,10 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Dict, Iterable, List
+    from typing import Dict, Iterable, List, Sequence
 
-__all__ = ['NamesByPart', 'did_you_mean', 'near_misses', 'near_names', 'near_parts', 'printable',
-           'quoted', 'quoted_path', 'with_article']
+__all__ = ['NamesByPart', 'did_you_mean', 'expectation', 'near_misses', 'near_names', 'near_parts',
+           'printable', 'quoted', 'quoted_path', 'shown', 'with_article']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _FEW_NAMES = 500        # of which each is compared, at about 20 us
@@ -135,6 +135,17 @@ def did_you_mean(suggestions: Iterable[str]) -> str:
     """
     meant = ' or '.join(map(quoted, suggestions))
     return ' (did you mean %s?)' % meant if meant else ''
+
+
+def expectation(found: object, known: Sequence[str]) -> str:
+    """
+    The end of an error about an unknown text: what was probably meant, or all that could have been.
+
+    >>> expectation('iocn', ['icon', 'launch']), expectation('x', ['icon', 'launch'])
+    (" (did you mean 'icon'?)", ' (expected icon, launch)')
+    """
+    meant = did_you_mean(near_misses(found, known)) if isinstance(found, str) else ''
+    return meant or ' (expected %s)' % ', '.join(known)
 
 
 def shown(value: object) -> str:
