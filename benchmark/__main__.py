@@ -10,6 +10,7 @@ ratio                       of it to the reference
 target                      what the ratio may be at most; None if it is only shown
 reference                   what it is measured with
 seconds, reference_seconds  what the ratio is of, where it is of times
+sizes, times                how much there was, and the seconds that each took, of a growth
 details                     str: what else there is to know, may be left out
 """
 import argparse
@@ -19,6 +20,8 @@ import os
 import platform
 import sys
 from glob import glob
+
+from measure import with_unit
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 
@@ -66,14 +69,6 @@ def show(figure):
     if 'details' in figure:
         notes.append(figure['details'])
     print('    ' + '; '.join(notes), flush=True)
-
-
-def with_unit(seconds):
-    """A time that a person can read."""
-    for unit, size in (('s', 1), ('ms', 1e-3), ('us', 1e-6)):
-        if seconds >= size:
-            return '%.3g %s' % (seconds / size, unit)
-    return '%.3g ns' % (seconds / 1e-9)
 
 
 if __name__ == '__main__':

@@ -13,6 +13,7 @@ import tempfile
 import time
 
 from catkin_pkg.packages import find_packages_allowing_duplicates
+from packages_with_specs import SPECS, make_packages
 
 _ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(_ROOT, 'src'))
@@ -30,65 +31,6 @@ _LARGE = 1000               # packages, with three specs each
 _ROUNDS = {_FOLDER_LIMIT: 10, _LARGE_LIMIT: 2}
 _WORKSPACE_ROUNDS = 5
 
-_MANIFEST = '''<?xml version="1.0"?>
-<package format="2">
-  <name>package_%(number)d</name>
-  <version>1.0.0</version>
-  <description>A generated package</description>
-  <maintainer email="nobody@example.org">Nobody</maintainer>
-  <license>BSD</license>
-  <buildtool_depend>catkin</buildtool_depend>
-  <exec_depend>sensor_msgs</exec_depend>
-  <exec_depend>std_msgs</exec_depend>
-  <export>
-    <capability_interface>interfaces/Camera.yaml</capability_interface>
-    <semantic_capability_interface>interfaces/FrontCamera.yaml</semantic_capability_interface>
-    <capability_provider>providers/camera.yaml</capability_provider>
-  </export>
-</package>
-'''
-_SPECS = {
-    'interfaces/Camera.yaml': '''%%YAML 1.1
----
-name: Camera
-spec_version: 1
-spec_type: interface
-description: 'A camera.'
-interface:
-  topics:
-    provides:
-      'camera/image_raw':
-        type: 'sensor_msgs/Image'
-        description: 'what it sees'
-      'camera/camera_info':
-        type: 'sensor_msgs/CameraInfo'
-  services:
-    'camera/set_camera_info':
-      type: 'sensor_msgs/SetCameraInfo'
-''',
-    'interfaces/FrontCamera.yaml': '''%%YAML 1.1
----
-name: FrontCamera
-spec_version: 1
-spec_type: semantic_interface
-redefines: 'package_%(number)d/Camera'
-global_namespace: 'front'
-remappings:
-  topics:
-    'camera/image_raw': 'front/image'
-''',
-    'providers/camera.yaml': '''%%YAML 1.1
----
-name: camera
-spec_version: 1
-spec_type: provider
-implements: 'package_%(number)d/FrontCamera'
-launch_file: 'launch/camera.launch'
-depends_on:
-  'package_%(next)d/Camera':
-    provider: 'package_%(next)d/camera'
-'''}
-
 
 def figures():
     """
@@ -100,8 +42,8 @@ def figures():
     folder = os.environ.get('ROCON_URI_CORPUS') or os.path.join(_ROOT, 'test', 'workspace')
     yield _figure('the packages in ' + os.path.basename(folder), folder, _FOLDER_LIMIT)
     with tempfile.TemporaryDirectory() as folder:
-        _generate(folder)
-        name = '%d packages with %d specs' % (_LARGE, _LARGE * len(_SPECS))
+        make_packages(folder, _LARGE)
+        name = '%d packages with %d specs' % (_LARGE, _LARGE * len(SPECS))
         yield _figure(name, folder, _LARGE_LIMIT)
         yield _workspace_figure(name, folder)
 
@@ -141,13 +83,3 @@ def _workspace_figure(name, folder):
     return {'name': 'read the workspace of ' + name, 'ratio': fastest / discovery,
             'target': _WORKSPACE_LIMIT, 'reference': 'its discovery, which asks catkin_pkg',
             'seconds': fastest, 'reference_seconds': discovery, 'details': ''}
-
-
-def _generate(folder):
-    for number in range(_LARGE):
-        names = {'number': number, 'next': (number + 1) % _LARGE}
-        for file_name, text in [('package.xml', _MANIFEST), *_SPECS.items()]:
-            path = os.path.join(folder, 'package_%d' % number, file_name)
-            os.makedirs(os.path.dirname(path), exist_ok=True)
-            with open(path, 'w', encoding='ascii') as file:
-                file.write(text % names)

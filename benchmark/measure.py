@@ -8,7 +8,7 @@ import time
 import urllib.parse
 from timeit import Timer
 
-__all__ = ['best_times', 'once', 'uncached_urlsplit']
+__all__ = ['best_times', 'once', 'uncached_urlsplit', 'with_unit']
 
 
 def uncached_urlsplit():
@@ -58,3 +58,16 @@ def once(function, *args, clock=time.process_time):
         return clock() - start, result
     finally:
         gc.enable()
+
+
+def with_unit(seconds):
+    """
+    A time that a person can read.
+
+    :param float seconds: the time
+    :returns: str
+    """
+    for unit, size in (('s', 1), ('ms', 1e-3), ('us', 1e-6)):
+        if seconds >= size:
+            return '%.3g %s' % (seconds / size, unit)
+    return '%.3g ns' % (seconds / 1e-9)

@@ -98,6 +98,18 @@ def test_in_the_corpus_only_what_is_really_wrong_is_found():
         "preferred provider 'create_capabilities/create_differential_mobile_base' does not exist"]
 
 
+def test_near_misses_in_many_files_are_looked_for_as_long_as_it_does_not_take_long(
+        tmp_path, monkeypatch):
+    files = {'interfaces__C%d_yaml' % number: 'name: Camera_%d\nspec_version: 1\n'
+             'spec_type: interface\n' % number for number in range(400)}
+    files.update(('providers__p%d_yaml' % number, USB_CAMERA.replace('usb', 'usb_%d' % number)
+                  .replace('Camera', 'Camera_0') + 'depends_on: ours/Camra_%d\n' % number)
+                 for number in range(60))
+    lines = found(tmp_path, monkeypatch, **files)
+    assert sum("does not exist (did you mean 'ours/Camera_" in line for line in lines) == 50
+    assert sum(line.endswith('does not exist') for line in lines) == 10
+
+
 def test_what_a_package_refers_to_may_be_elsewhere_on_the_package_path(tmp_path, monkeypatch):
     make_package(tmp_path / 'a', 'theirs', [('capability_interface', 'Camera.yaml')],
                  Camera_yaml=CAMERA)

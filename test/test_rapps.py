@@ -196,6 +196,15 @@ def test_an_inherited_file_is_relative_to_the_parent():
     assert rapps['ours/dance'].files == {'icon': '/theirs/i/motion.png'}
 
 
+def test_near_misses_of_many_missing_parents_are_looked_for_as_long_as_it_does_not_take_long():
+    texts = {'dance_%d' % number: 'parent_name: moton_%d' % number for number in range(100)}
+    texts.update(('motion_%d' % number, '{}') for number in range(300))
+    _, errors = family(**texts)
+    assert len(errors) == 100
+    assert "(did you mean 'ours/motion_7' or" in str(errors[7])
+    assert ['did you mean' in str(error) for error in errors] == [True] * 50 + [False] * 50
+
+
 def test_a_missing_parent_is_an_error_of_that_rapp_alone():
     rapps, errors = family(dance='\nparent_name: ours/motoin', motion='{}',
                            waltz='parent_name: dance')

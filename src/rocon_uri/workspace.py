@@ -26,6 +26,7 @@ from rocon_uri.apps.runnable import App
 from rocon_uri.sources.located import Fault as FileFault
 from rocon_uri.sources.launch_file import LaunchFiles
 from rocon_uri.sources.packages import Package, PackageError, find_packages
+from rocon_uri.sources.wording import NamesByPart
 from rocon_uri.vocabulary import Vocabulary, vocabulary_of_packages
 
 __all__ = ['Workspace', 'load_workspace', 'read_workspace']
@@ -50,6 +51,12 @@ class Workspace(NamedTuple):
     own_rapps: Dict[str, Rapp]
     #: the apps of app_manager by name
     app_files: Dict[str, AppFile]
+    #: the names of the capabilities, to look for near misses in
+    capability_names: NamesByPart
+    #: those of the providers
+    provider_names: NamesByPart
+    #: those of the rapps
+    rapp_names: NamesByPart
     #: the cycle of each provider that depends on itself, through others or not, by its name
     cycles: Dict[str, Fault]
     #: the launch files that were looked at so far
@@ -118,11 +125,13 @@ def load_workspace(packages: Mapping[str, Package], faults: Iterable[FileFault] 
     rapps, heirs_faults = with_inheritance(own_rapps.values())
     app_files, app_faults = app_files_from_package_index(packages)
     vocabulary, rules_faults = vocabulary_of_packages(packages)
+    capabilities: Dict[str, Capability] = {**index.interfaces, **index.semantic_interfaces}
+    providers = index.providers
     return Workspace(
-        packages=packages, spec_index=index,
-        capabilities={**index.interfaces, **index.semantic_interfaces}, providers=index.providers,
-        rapps=rapps, own_rapps=own_rapps, app_files=app_files, launch_files=LaunchFiles(),
-        vocabulary=vocabulary,
+        packages=packages, spec_index=index, capabilities=capabilities, providers=providers,
+        capability_names=NamesByPart(capabilities), provider_names=NamesByPart(providers),
+        rapp_names=NamesByPart(rapps), rapps=rapps, own_rapps=own_rapps, app_files=app_files,
+        launch_files=LaunchFiles(), vocabulary=vocabulary,
         cycles={name: fault for fault in find_cycles(index) for name in fault.cycle},
         faults=[*faults, *spec_faults, *rapp_faults, *heirs_faults, *app_faults,
                 *rules_faults])

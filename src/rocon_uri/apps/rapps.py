@@ -24,7 +24,7 @@ from rocon_uri.apps.runnable import Reason, ReasonKind, Verdict, runnable
 from rocon_uri.sources.located import with_id
 from rocon_uri.sources.packages import Package, as_package
 from rocon_uri.sources.wording import (
-    did_you_mean, near_names, quoted, quoted_path)
+    NamesByPart, did_you_mean, quoted, quoted_path)
 
 if TYPE_CHECKING:
     from catkin_pkg.package import Package as CatkinPackage
@@ -119,6 +119,7 @@ def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[Inval
     :returns: (dict of `Rapp` by name, list of `InvalidRapp`)
     """
     by_name = {rapp.name: rapp for rapp in rapps}
+    names = NamesByPart(by_name)
     related: Dict[str, Rapp] = {}
     errors: Dict[str, InvalidRapp] = {}
     for rapp in by_name.values():
@@ -136,17 +137,17 @@ def with_inheritance(rapps: Iterable[Rapp]) -> Tuple[Dict[str, Rapp], List[Inval
         for name, descendant in reversed(list(line.items())):
             parent = related.get(descendant.parent_name or '')
             if parent is None and not descendant.is_ancestor:
-                errors.setdefault(name, _missing_parent_error(descendant, by_name))
+                errors.setdefault(name, _missing_parent_error(descendant, names))
             if name not in related:
                 related[name] = descendant if parent is None else descendant.inheriting(parent)
     return ({name: related[name] for name in by_name if name not in errors},
             [errors[name] for name in by_name if name in errors])
 
 
-def _missing_parent_error(rapp: Rapp, by_name: Mapping[str, Rapp]) -> InvalidRapp:
+def _missing_parent_error(rapp: Rapp, names: NamesByPart) -> InvalidRapp:
     parent_name = rapp.parent_name or ''
     return with_id(InvalidRapp('parent_name %s does not exist or cannot be read%s' % (
-        quoted(parent_name), did_you_mean(near_names(parent_name, by_name))),
+        quoted(parent_name), did_you_mean(names.near_misses(parent_name))),
         rapp.path, *rapp.position('parent_name')), 'unknown-app')
 
 

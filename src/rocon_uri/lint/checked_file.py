@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from typing import Callable, Iterable, List, Mapping, Optional, Sequence
+from typing import Iterable, List, Optional, Sequence
 
 from capabilities.specs.interface import CapabilityInterface
 from rocon_uri.exceptions import RoconURIValueError
@@ -13,7 +13,7 @@ from rocon_uri.sources.launch_file import MISSING, LaunchFiles
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.resources import not_a_path
 from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name
-from rocon_uri.sources.wording import did_you_mean, near_misses, near_names, quoted
+from rocon_uri.sources.wording import NamesByPart, did_you_mean, near_misses, quoted
 from rocon_uri.sources.yaml_data import split_lines
 from rocon_uri.sources.yaml_source import read_file
 from rocon_uri.uri import parse
@@ -146,12 +146,13 @@ class CheckedFile(Reading):
                 os.path.join(self.package_folder, name))
             self.add(if_in_package if is_in_package else ERROR, str(fault), place, fault.kind)
 
-    def check_exists(self, name: str, what: str, known: Mapping[str, object], place: Place,
+    def check_exists(self, name: str, what: str, known: NamesByPart, place: Place,
                      fault_id: str) -> bool:
         """Check that what this file names, ``package/name``, exists; return whether it does."""
         if name not in known:
-            self.error('%s %s does not exist%s' % (
-                what, quoted(name), self._suggestion(name, known, near_names)), place, fault_id)
+            meant = known.near_misses(name) if self._has_few_findings() else []
+            self.error('%s %s does not exist%s' % (what, quoted(name), did_you_mean(meant)), place,
+                       fault_id)
         return name in known
 
     def check_remapped_names(self, kind: str, new_names: CheckedMapping,
@@ -192,9 +193,8 @@ class CheckedFile(Reading):
             self.warn('compatibility: ' + misplaced, self._place_in_text(text, index, place),
                       'misplaced-name')
 
-    def _suggestion(self, text: str, candidates: Iterable[str],
-                    find: Callable[[str, Iterable[str]], List[str]] = near_misses) -> str:
-        return did_you_mean(find(text, candidates)) if self._has_few_findings() else ''
+    def _suggestion(self, text: str, candidates: Iterable[str]) -> str:
+        return did_you_mean(near_misses(text, candidates)) if self._has_few_findings() else ''
 
     def _has_few_findings(self) -> bool:
         return len(self.findings) < _SUGGESTING

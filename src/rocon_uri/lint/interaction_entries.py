@@ -93,7 +93,8 @@ def _check_pairing(pairing: CheckedMapping, file: CheckedFile, workspace: Worksp
     """Check what a pairing consists of, wherever it stands."""
     rapp = pairing.required_text('rapp')
     if rapp:
-        file.check_exists(rapp, 'rapp', workspace.rapps, pairing.value_place('rapp'), 'unknown-app')
+        file.check_exists(rapp, 'rapp', workspace.rapp_names, pairing.value_place('rapp'),
+                          'unknown-app')
     _check_remappings(pairing, file)
 
 

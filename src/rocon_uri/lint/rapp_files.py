@@ -82,7 +82,7 @@ def _check_required_capability(capability: CheckedMapping, file: CheckedFile,
                                workspace: Workspace) -> None:
     capability.warn_of_unknown(('name', 'interface'))
     name = capability.required_text('name')
-    file.check_exists(name, 'capability', workspace.capabilities,
+    file.check_exists(name, 'capability', workspace.capability_names,
                       capability.value_place('name'), 'no-interface')
     interface = workspace.interface(name)
     kinds = capability.mapping('interface')

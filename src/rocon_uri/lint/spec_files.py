@@ -101,12 +101,12 @@ def _check_dependency(dependency: DependsOnRelationship, source: CheckedMapping,
         place = key_place(given, name)
     elif isinstance(given, list):
         place = value_place(given, given.index(name))
-    file.check_exists(name, 'capability', workspace.capabilities, place, 'no-interface')
+    file.check_exists(name, 'capability', workspace.capability_names, place, 'no-interface')
     if preferred is None:
         return
     place = value_place(given[name], 'provider')
-    if file.check_exists(preferred, 'preferred provider', workspace.providers, place,
-                         'unknown-provider'):
+    if file.check_exists(preferred, 'preferred provider', workspace.provider_names,
+                         place, 'unknown-provider'):
         implemented = workspace.providers[preferred].implements
         redefined = getattr(workspace.capabilities.get(implemented), 'redefines', None)
         if name not in (implemented, redefined):

@@ -5,11 +5,12 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Dict, Iterable, List, Sequence
 
-__all__ = ['NamesByPart', 'did_you_mean', 'expectation', 'near_misses', 'near_names', 'near_parts',
-           'printable', 'quoted', 'quoted_path', 'shown', 'with_article']
+__all__ = ['NamesByPart', 'did_you_mean', 'expectation', 'near_misses', 'near_parts', 'printable',
+           'quoted', 'quoted_path', 'shown', 'with_article']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _FEW_NAMES = 500        # of which each is compared, at about 20 us
+_MAX_COMPARED = 20000   # names, before which a set of names has near misses: up to 1.2 s
 _NEAR_LENGTH = 64       # characters: a longer text is not a typing error, and would take long
 
 
@@ -55,43 +56,44 @@ def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
     return [by_lower[name] for name in found]
 
 
-def near_names(name: str, names: Iterable[str]) -> List[str]:
-    """
-    The `near_misses` among names of the form ``package/name`` that share a part with one.
-
-    Comparing it with all names could take too long.
-
-    >>> near_names('ours/Camra', ['ours/Camera', 'theirs/Base', 'theirs/Camra', 'a/Camera'])
-    ['ours/Camera', 'theirs/Camra']
-    """
-    package, _, own_name = name.partition('/')
-    return near_misses(name, (other for other in names if other.startswith(package + '/')
-                              or other.endswith('/' + own_name)))
-
-
 class NamesByPart:
     """
     Names, ``package/name``, to look for the near misses of many names in.
 
-    Where there are many, a name is compared only with those that share a part with it.
+    :param names: iterable of str
 
     >>> names = NamesByPart(['ours/Camera', 'theirs/Base'])
-    >>> near_misses('ours/Camra', names.like('ours/Camra'))
-    ['ours/Camera']
+    >>> 'ours/Camra' in names, names.near_misses('ours/Camra')
+    (False, ['ours/Camera'])
     """
 
     def __init__(self, names: Iterable[str]) -> None:
-        self._names = list(names)
-        self._by_part: Dict[str, List[str]] = {}
-        if len(self._names) > _FEW_NAMES:
-            for name in self._names:
-                for part in _parts(name):
-                    self._by_part.setdefault(part, []).append(name)
+        self._names = dict.fromkeys(names)
+        self._by_part: Dict[str, List[str]] = {}    # once it is needed
+        self._compared = 0
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._names
 
     def like(self, name: str) -> List[str]:
-        """The names to compare one with; the list is not to be changed."""
-        if len(self._names) <= _FEW_NAMES:
-            return self._names
+        """
+        The names to compare one with: where there are many, those that share a part with it.
+
+        The list is not to be changed.
+        """
+        return list(self._names) if len(self._names) <= _FEW_NAMES else self._sharing_a_part(name)
+
+    def near_misses(self, name: str) -> List[str]:
+        """The `near_misses` among those that share a part with one; none after many comparisons."""
+        names = self._sharing_a_part(name)
+        self._compared += len(names)
+        return near_misses(name, names) if self._compared <= _MAX_COMPARED else []
+
+    def _sharing_a_part(self, name: str) -> List[str]:
+        if not self._by_part:
+            for other in self._names:
+                for part in _parts(other):
+                    self._by_part.setdefault(part, []).append(other)
         return [other for part in _parts(name) for other in self._by_part.get(part, ())]
 
 
