@@ -47,12 +47,13 @@ def test_types_fit_together():
     check('mypy', '--no-incremental')
 
 
+@pytest.mark.parametrize('name', ['rocon_uri', 'rocon_uri/capabilities'])
 def test_is_a_catkin_package_as_it_should_be(
-        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv('ROS_PACKAGE_PATH', raising=False)    # or it is found there, too
     # by a path whose end is its name, as in a workspace
     (tmp_path / 'rocon_uri').symlink_to(ROOT)
-    check('catkin_lint', '-W2', '--strict', '--offline', str(tmp_path / 'rocon_uri'))
+    check('catkin_lint', '-W2', '--strict', '--offline', str(tmp_path / name))
 
 
 def test_those_who_use_it_get_its_types(tmp_path: Path) -> None:
