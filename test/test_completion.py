@@ -1,4 +1,4 @@
-"""What the shell completes, in an interactive bash as people use it."""
+"""What the shell completes, in an interactive bash or zsh as people use it."""
 from __future__ import annotations
 
 import os
@@ -72,22 +72,17 @@ def test_where_argcomplete_is_missing_nothing_is_done(tmp_path):
 
 
 class Shell:
-    """An interactive bash that has read our completion."""
+    """An interactive shell that has read our completion."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, command, **changes):
         (folder / 'bin').mkdir()
         (folder / 'bin' / 'rocon_uri').symlink_to(SCRIPT)
-        (folder / 'rc').write_text(
-            "PS1='READY$ '\nbind 'set show-all-if-ambiguous on'\nbind 'set page-completions off'\n"
-            "bind 'set enable-bracketed-paste off'\nbind 'set completion-query-items 0'\n"
-            '[ ! -r /usr/share/bash-completion/bash_completion ] '
-            '|| . /usr/share/bash-completion/bash_completion\n. %s\n' % COMPLETION)
         self._ours, theirs = open_terminal()
         self._process = subprocess.Popen(
-            ['bash', '--noprofile', '--rcfile', str(folder / 'rc'), '-i'], stdin=theirs,
-            stdout=theirs, stderr=theirs, start_new_session=True, cwd=str(folder),
-            env=dict(os.environ, PATH='%s:%s' % (folder / 'bin', os.environ['PATH']), TERM='dumb',
-                     INPUTRC='/dev/null', ROS_PACKAGE_PATH=WORKSPACE, HISTFILE=''))
+            command, stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True,
+            cwd=str(folder), env=dict(os.environ, TERM='dumb', ROS_PACKAGE_PATH=WORKSPACE,
+                                      PATH='%s:%s' % (folder / 'bin', os.environ['PATH']),
+                                      HISTFILE='', **changes))
         os.close(theirs)
         self.read_until('READY$ ')
 
@@ -117,7 +112,29 @@ class Shell:
 @pytest.fixture
 def shell(tmp_path):
     pytest.importorskip('argcomplete')
-    shell = Shell(tmp_path)
+    (tmp_path / 'rc').write_text(
+        "PS1='READY$ '\nbind 'set show-all-if-ambiguous on'\nbind 'set page-completions off'\n"
+        "bind 'set enable-bracketed-paste off'\nbind 'set completion-query-items 0'\n"
+        '[ ! -r /usr/share/bash-completion/bash_completion ] '
+        '|| . /usr/share/bash-completion/bash_completion\n. %s\n' % COMPLETION)
+    shell = Shell(tmp_path, ['bash', '--noprofile', '--rcfile', str(tmp_path / 'rc'), '-i'],
+                  INPUTRC='/dev/null')
+    yield shell
+    shell.close()
+
+
+@pytest.fixture
+def zsh(tmp_path):
+    """An interactive zsh that has read the line of the documentation, and nothing of the system."""
+    pytest.importorskip('argcomplete')
+    if shutil.which('zsh') is None:
+        pytest.skip('zsh is not installed')
+    page = (ROOT / 'doc' / 'command_line.rst').read_text(encoding='utf-8')
+    line = re.search('^   (autoload .*bashcompinit.*)$', page, re.MULTILINE).group(1)
+    if shutil.which('register-python-argcomplete') is None:
+        line = line.replace('register-python-argcomplete', 'register-python-argcomplete3')
+    (tmp_path / '.zshrc').write_text("PS1='READY$ '\n%s\n" % line)
+    shell = Shell(tmp_path, ['zsh', '-o', 'NO_GLOBAL_RCS', '-i'], ZDOTDIR=str(tmp_path))
     yield shell
     shell.close()
 
@@ -133,6 +150,14 @@ def test_tab_completes_verbs_options_and_values(shell):
 
 
 @needs_bash
+def test_tab_completes_in_zsh_after_the_documented_line(zsh):
+    zsh.type('rocon_uri pla\t', 'rocon_uri platform ')
+    zsh.type('rocon_uri match --req\t', '--requests-in ')
+    zsh.type('rocon_uri apps --robot rocon:/waiter\t', 'rocon:/waiterbot')
+    zsh.type('rocon_uri apps cafe_rapps/pa\t', 'cafe_rapps/patrol ')
+
+
+@needs_bash
 @pytest.mark.skipif(not os.path.exists(ROSBASH), reason='rosbash is not installed')
 def test_tab_completes_behind_rosrun_and_leaves_all_else_to_rosbash(shell):
     shell.type('roscd cafe_car\t', 'cafe_cart/')
@@ -140,6 +165,15 @@ def test_tab_completes_behind_rosrun_and_leaves_all_else_to_rosbash(shell):
     shell.type('rosrun rocon_uri rocon_uri apps cafe_rapps/pa\t', 'cafe_rapps/patrol ')
     shell.type('rosrun --prefix time rocon_uri rocon_uri fields oper\t', 'operating_system ')
     shell.type('rosrun cafe_car\t', 'cafe_cart ')
+
+
+@needs_bash
+@pytest.mark.skipif(not os.path.exists(ROSBASH), reason='rosbash is not installed')
+def test_tab_completes_the_command_of_the_nested_package_behind_rosrun(shell):
+    shell.type('roscd cafe_car\t', 'cafe_cart/')
+    shell.type('rosrun capabilities capabilities statu\t', 'capabilities status ')
+    shell.type('rosrun capabilities capabilities status --js\t', '--json ')
+    shell.type('rosrun --prefix time capabilities capabilities wat\t', 'capabilities watch ')
 
 
 @needs_bash
