@@ -10,18 +10,23 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from built import built
 from fuzz import batch
 from fuzz.batch import run_batch
 
 INPUTS = {'uri': 400, 'name_pattern': 400, 'spec_file': 200, 'rapp_file': 60, 'app_file': 60,
-          'package_exports': 80, 'message': 200}
+          'interactions': 60, 'rules_file': 60, 'launch_file': 80, 'package_exports': 80,
+          'message': 200, 'server_requests': 60}
 
 
 @pytest.mark.parametrize('name', batch.TARGETS)
 def test_damaged_input_is_answered_as_documented(name):
     if name == 'message':
         pytest.importorskip('genpy', reason='messages need ROS')
-    if name in ('rapp_file', 'app_file', 'package_exports'):
+    if name == 'server_requests':
+        built('capabilities.srv')
+    if name in ('rapp_file', 'app_file', 'interactions', 'rules_file', 'launch_file',
+                'package_exports'):
         pytest.importorskip('catkin_pkg')
     tried, fault = run_batch(import_module('fuzz.' + name), 1, INPUTS[name])
     assert not fault, fault
