@@ -77,9 +77,14 @@ while True:
     time.sleep(1000)
 '''
 RUNAWAY = '''
+signal.signal(signal.SIGINT, signal.SIG_IGN)
+signal.signal(signal.SIGTERM, signal.SIG_IGN)
 ready()
-while os.fork() == 0 or os._exit(0):
-    time.sleep(0.02)        # shorter lives than it takes to look at /proc are not seen at all
+while True:
+    if os.fork():
+        time.sleep(2)       # shorter lives than a look at /proc takes are not seen at all
+        os._exit(0)
+    time.sleep(0.02)
 '''
 
 
