@@ -27,6 +27,7 @@ LEVELS = (
     ('resource_index',),
     ('resource_database',),
     ('resource_directory',),
+    ('announcer', 'shared_directory'),
     ('apps',),
     ('workspace', 'spec_graph', 'spec_picture'),
     ('lint',),

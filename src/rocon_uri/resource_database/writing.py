@@ -105,7 +105,7 @@ class Writer:
         for uri, payload in entries:
             payloads[uri] = payload
         fields = {uri: fields_of(uri) for uri in payloads}
-        kinds = self._kind_ids(set(fields.values()))
+        kinds = self.kind_ids(set(fields.values()))
         with transaction(self._engine) as connection:
             cursor = self._dialect.begin_writing(connection)
             if any(uri.name_pattern is not None for uri in payloads):
@@ -116,7 +116,7 @@ class Writer:
                 row_of(uri, number, kinds[fields[uri]], payload, expires)
                 for number, (uri, payload) in zip(numbers, payloads.items())], now)
 
-    def _kind_ids(self, kinds: Iterable[Fields]) -> Dict[Fields, int]:
+    def kind_ids(self, kinds: Iterable[Fields]) -> Dict[Fields, int]:
         """Their ids; those that are new are committed, so that whoever sees a row sees its kind."""
         missing = {fields.digest(): fields for fields in kinds if fields not in self._kinds}
         if missing:

@@ -1,0 +1,167 @@
+"""
+A robot's end of the resource directory: it announces itself, and says goodbye when it ends.
+
+``rosrun rocon_uri announce`` is the node; a node of one's own has an `Announcer`.
+"""
+from __future__ import annotations
+
+import argparse
+import sys
+import threading
+import time
+from typing import List, Optional, Union
+
+import rospy
+
+from rocon_uri.exceptions import UnregisteredValue
+from rocon_uri.messages import to_msg
+from rocon_uri.msg import Announcement
+from rocon_uri.platform import (
+    default_robot_name, default_robot_type, generate_platform_rocon_uri)
+from rocon_uri.resource_directory import check_key, check_lifetime
+from rocon_uri.uri import RoconURI, parse
+from rocon_uri.vocabulary import Vocabulary
+
+__all__ = ['TOPIC', 'Announcer', 'main']
+
+#: where announcements are sent; relative, so that it can be remapped
+TOPIC = 'resource_announcements'
+
+_SENDING = 1.0      # seconds that the end of a robot waits for its goodbye to be sent
+
+
+class Announcer:
+    """
+    Announces a resource until it is told to end; ``rospy.init_node`` comes before.
+
+    It ends with the node, too. In a ``with`` statement it ends with the block::
+
+        rospy.init_node('bob')
+        Announcer('rocon:/turtlebot2/bob/noetic/focal')
+
+    :param uri: str or RoconURI, the resource, which may have values that are not registered; None
+        for this machine's, as ``rocon_uri platform`` shows it
+    :param float period: seconds between announcements
+    :param float lifetime: seconds until the resource is gone if it falls silent; None for three
+        periods
+    :param str key: which of the node's resources it is, at most 255 characters; '' if it has one
+    :raises RoconURIValueError: for a text that is not legal
+    :raises ValueError: for a period that is not greater than 0, a lifetime under twice the period
+        or one that the directory refuses, and for a key that is too long
+    """
+
+    def __init__(self, uri: Union[str, RoconURI, None] = None, period: float = 5.0,
+                 lifetime: Optional[float] = None, key: str = '') -> None:
+        lifetime = 3 * period if lifetime is None else lifetime
+        if not period > 0:
+            raise ValueError('period %g s is not greater than 0' % period)
+        if not lifetime >= 2 * period:
+            raise ValueError('lifetime %g s is not at least twice the period of %g s: one lost '
+                             'announcement would end the resource' % (lifetime, period))
+        check_lifetime(lifetime)
+        check_key(key)
+        self._period = period
+        self._message = Announcement(uri=to_msg(_read(uri)), key=key,
+                                     lifetime=rospy.Duration.from_sec(lifetime))
+        self._publisher = rospy.Publisher(TOPIC, Announcement, latch=True, queue_size=1000)
+        self._has_ended = threading.Event()
+        self._lock = threading.Lock()
+        self._thread = threading.Thread(target=self._announce, daemon=True)
+        self._thread.start()
+        rospy.on_shutdown(self.end)
+
+    def change(self, uri: Union[str, RoconURI]) -> None:
+        """
+        Announce another URI from now on, at once.
+
+        :param uri: str or RoconURI, as above
+        :raises RoconURIValueError: for a text that is not legal
+        """
+        message = to_msg(_read(uri))
+        with self._lock:
+            self._message.uri = message
+            self._publish()
+
+    def end(self) -> None:
+        """Say goodbye, unless that was done; it takes at most a second."""
+        with self._lock:
+            if self._has_ended.is_set():
+                return
+            self._has_ended.set()
+            self._message.lifetime = rospy.Duration(0)
+            self._publisher.publish(self._message)
+        deadline = time.monotonic() + _SENDING
+        while self._is_sending() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        time.sleep(0.05)    # in which rospy's thread writes what it has taken from its queue
+
+    def __enter__(self) -> Announcer:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.end()
+
+    def _announce(self) -> None:
+        while True:
+            with self._lock:
+                if self._has_ended.is_set():
+                    return
+                self._publish()
+            self._has_ended.wait(self._period)
+
+    def _publish(self) -> None:
+        try:
+            if not self._has_ended.is_set():
+                self._publisher.publish(self._message)
+        except rospy.ROSException:      # the node is ending
+            pass
+
+    def _is_sending(self) -> bool:
+        implementation = self._publisher.impl
+        return implementation is not None and any(
+            getattr(connection, '_queue', None) for connection in implementation.connections)
+
+
+def _read(uri: Union[str, RoconURI, None]) -> RoconURI:
+    if uri is None:
+        uri = generate_platform_rocon_uri(default_robot_type, default_robot_name())
+    return parse(uri, Vocabulary.open()) if isinstance(uri, str) else uri
+
+
+def main() -> int:
+    """The node ``announce``; returns its exit status."""
+    parser = argparse.ArgumentParser(
+        prog='announce', description='Announce a robot to the resource directory of its master, '
+        'and say goodbye when it ends.', epilog='The name of the node says who it is: give each '
+        'robot of a master another one (__name:=announce_bob), since a node ends an earlier one of '
+        'its name. Exit status: 0; 2 for arguments that are wrong.')
+    parser.add_argument('uri', nargs='?', help='the robot (default: what rocon_uri platform shows)')
+    parser.add_argument('--period', type=float, default=5.0, metavar='SECONDS',
+                        help='between announcements (default: 5)')
+    parser.add_argument('--lifetime', type=float, metavar='SECONDS',
+                        help='until it is gone if it falls silent, at least twice the period '
+                        '(default: 3 periods)')
+    parser.add_argument('--key', default='', help='which of the robots of the node it is')
+    arguments = parser.parse_args(_own_arguments())
+    try:
+        if arguments.uri is not None:
+            _warn_of_unregistered(arguments.uri)
+        rospy.init_node('announce')
+        Announcer(arguments.uri, arguments.period, arguments.lifetime, arguments.key)
+    except ValueError as error:
+        print('announce: %s' % error, file=sys.stderr)
+        return 2
+    rospy.spin()
+    return 0
+
+
+def _own_arguments() -> List[str]:
+    """The arguments without ROS's remappings."""
+    return list(rospy.myargv(sys.argv)[1:])
+
+
+def _warn_of_unregistered(uri: str) -> None:
+    try:
+        parse(uri)
+    except UnregisteredValue as error:
+        print('announce: warning: %s' % error, file=sys.stderr)
