@@ -73,7 +73,8 @@ def postgresql():
     from postgresql_server import Server
     server = Server()
     try:
-        yield server.new_database()
+        with server.database() as url:
+            yield url
     finally:
         server.remove()
 

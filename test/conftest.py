@@ -126,11 +126,18 @@ def postgresql():
     server.remove()
 
 
+@pytest.fixture
+def postgresql_url(postgresql):
+    """The URL of an empty database of it."""
+    with postgresql.database() as url:
+        yield url
+
+
 @pytest.fixture(params=['sqlite', 'postgresql'])
 def database_url(request, tmp_path):
     """The URL of an empty database of each kind that is supported."""
     if request.param == 'postgresql':
-        return request.getfixturevalue('postgresql').new_database()
+        return request.getfixturevalue('postgresql_url')
     pytest.importorskip('sqlalchemy', reason='SQLAlchemy is not installed')
     return 'sqlite:///%s' % (tmp_path / 'fleet.db')
 

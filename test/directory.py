@@ -1,11 +1,14 @@
 """A resource directory, robots that announce themselves to it, and what a client sees of it."""
 from __future__ import annotations
 
+import concurrent.futures
+import contextlib
 import itertools
 import os
 import signal
 import subprocess
 import sys
+import threading
 
 from robot import PATIENCE, eventually
 
@@ -38,8 +41,9 @@ class Place:
         return self
 
     def __exit__(self, *error):
-        for process in self.processes:
-            end(process)
+        with contextlib.ExitStack() as stack:       # each, even if one does not end
+            for process in reversed(self.processes):
+                stack.callback(end, process)
 
     def run(self, program, name, *arguments):
         """Start a node of that name; its process is returned."""
@@ -72,7 +76,7 @@ class Place:
                 'find_robots': srv.FindRobots}[service]
         name = '%s/directory/%s' % (self.namespace, service)
         rospy.wait_for_service(name, PATIENCE)
-        return rospy.ServiceProxy(name, kind)(*arguments)
+        return within_patience(rospy.ServiceProxy(name, kind), *arguments)
 
     def find(self, request='rocon:/'):
         """What the directory finds, sorted."""
@@ -81,6 +85,23 @@ class Place:
     def wait_for(self, *uris):
         """Wait until the directory has exactly these."""
         eventually(lambda: self.find() == sorted(uris))
+
+
+def within_patience(function, *arguments):
+    """What it returns or raises; an AssertionError if that takes longer than a test waits."""
+    outcome = concurrent.futures.Future()
+
+    def call():
+        try:
+            outcome.set_result(function(*arguments))
+        except BaseException as error:
+            outcome.set_exception(error)
+
+    threading.Thread(target=call, daemon=True).start()
+    try:
+        return outcome.result(PATIENCE)
+    except concurrent.futures.TimeoutError:
+        raise AssertionError('no answer after %g s: %r' % (PATIENCE, arguments)) from None
 
 
 class Seen:

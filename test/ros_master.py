@@ -38,6 +38,15 @@ for word in words:
 ''' % sys.executable
 
 
+class _Transport(xmlrpc.client.Transport):
+    """Waits 10 s for an answer; another process may have taken the port."""
+
+    def make_connection(self, host):
+        connection = super().make_connection(host)
+        connection.timeout = 10
+        return connection
+
+
 class Master:
     """
     A roscore, and the environment of what talks to it.
@@ -62,8 +71,10 @@ class Master:
         self._process = subprocess.Popen(
             ['roscore', '-p', str(self.port)], env=self.environment, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL, start_new_session=True)
+        deadline = time.monotonic() + 60
         while not self._answers():
-            assert self._process.poll() is None, 'roscore does not start'
+            assert self._process.poll() is None and time.monotonic() < deadline, \
+                'roscore does not start'
             time.sleep(0.05)
         return self
 
@@ -78,7 +89,8 @@ class Master:
     def _answers(self):
         """Is the master there, and rosout, which is the last to come?"""
         try:
-            return xmlrpc.client.ServerProxy(self.uri).lookupNode('/test', '/rosout')[0] == 1
+            master = xmlrpc.client.ServerProxy(self.uri, _Transport())
+            return master.lookupNode('/test', '/rosout')[0] == 1
         except OSError:
             return False
 

@@ -10,7 +10,7 @@ import pytest
 from built import built
 from directory import ANNOUNCE, DIRECTORY, Place, Seen, end
 from made_packages import make_package
-from robot import eventually
+from robot import PATIENCE, eventually
 
 srv = built('rocon_uri.srv')
 
@@ -64,7 +64,7 @@ def test_a_robot_of_the_same_name_replaces_the_earlier_one(place):
     place.wait_for(BOB)
     place.announce('bob', ALICE)
     place.wait_for(ALICE)
-    assert first.wait(40) == 0      # not anonymous: the master ends it
+    assert first.wait(PATIENCE) == 0      # not anonymous: the master ends it
 
 
 def test_a_directory_that_was_killed_and_comes_back_has_its_robots_again(place):
@@ -210,7 +210,7 @@ def test_find_robots_by_the_apps_of_the_packages(robot, place, tmp_path):
 def test_arguments_that_are_wrong(robot, program, arguments, text):
     done = subprocess.run([sys.executable, '-c', program, *arguments],
                           env=robot.server_environment, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, universal_newlines=True)
+                          stderr=subprocess.PIPE, universal_newlines=True, timeout=PATIENCE)
     assert done.returncode == 2
     assert done.stderr.startswith(text)
     assert done.stderr.count('\n') == 1

@@ -108,9 +108,10 @@ def test_a_database_that_is_away(ask):
         assert 'secret' not in errors
 
 
-def test_a_connection_that_is_lost_meanwhile(postgresql, ask, tmp_path, monkeypatch):
+def test_a_connection_that_is_lost_meanwhile(
+        postgresql, postgresql_url, ask, tmp_path, monkeypatch):
     from rocon_uri.resource_database import database
-    url = postgresql.new_database()
+    url = postgresql_url
     fleet = tmp_path / 'fleet.txt'
     fleet.write_text(''.join('rocon:/pr2/bob_%d\n' % number for number in range(3000)),
                      encoding='ascii')

@@ -416,9 +416,8 @@ class TestLostConnections:
     """To PostgreSQL."""
 
     @pytest.fixture
-    def fleet(self, postgresql):
-        self.url = postgresql.new_database()
-        engine = open_engine(self.url)
+    def fleet(self, postgresql_url):
+        engine = open_engine(postgresql_url)
         yield ResourceDatabase(engine)
         engine.dispose()
 

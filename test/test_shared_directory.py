@@ -10,31 +10,26 @@ import pytest
 
 from built import built
 from directory import Place, Seen, end
-from robot import eventually
+from robot import PATIENCE, eventually
 from ros_master import Master
 
 pytest.importorskip('sqlalchemy', reason='SQLAlchemy is not installed')
 
+from rocon_uri.announcement import values_of      # noqa: E402
 from rocon_uri.resource_database import ResourceDatabase, open_engine       # noqa: E402
-from rocon_uri.resource_directory import values_of      # noqa: E402
 from rocon_uri.shared_directory import SharedDirectory  # noqa: E402
 
 BOB, ALICE = 'rocon:/pr2/bob/*/*', 'rocon:/turtlebot2/alice/*/*'
 
 
 @pytest.fixture
-def url(postgresql):
-    return postgresql.new_database()
+def north(postgresql_url):
+    return SharedDirectory(postgresql_url, 'north')
 
 
 @pytest.fixture
-def north(url):
-    return SharedDirectory(url, 'north')
-
-
-@pytest.fixture
-def south(url, north):
-    return SharedDirectory(url, 'south')
+def south(postgresql_url, north):
+    return SharedDirectory(postgresql_url, 'south')
 
 
 def announce(directory, announcer, uri, lifetime=60.0, key=''):
@@ -72,16 +67,16 @@ def test_the_longest_lifetime_counts(north, south):
     assert north.uris() == []
 
 
-def test_a_goodbye_after_the_directory_was_started_again(url, north):
+def test_a_goodbye_after_the_directory_was_started_again(postgresql_url, north):
     announce(north, '/a', BOB)
-    again = SharedDirectory(url, 'north')
+    again = SharedDirectory(postgresql_url, 'north')
     assert again.uris() == [BOB]
     announce(again, '/a', BOB, 0.0)
     assert again.uris() == []
 
 
-def test_what_somebody_else_stored_for_ever_stays(url, north):
-    resources = ResourceDatabase(open_engine(url))
+def test_what_somebody_else_stored_for_ever_stays(postgresql_url, north):
+    resources = ResourceDatabase(open_engine(postgresql_url))
     resources.add(BOB, payload='mine')
     announce(north, '/a', BOB)
     announce(north, '/a', BOB, 0.0)
@@ -99,13 +94,13 @@ def test_the_state_differs_when_the_resources_do(north, south):
     assert south.state() == states[2]
 
 
-def test_what_has_expired_is_removed_from_the_tables(url, north, postgresql):
+def test_what_has_expired_is_removed_from_the_tables(postgresql_url, north, postgresql):
     announce(north, '/a', BOB, 0.1)
     announce(north, '/b', ALICE)
     eventually(lambda: north.uris() == [ALICE])
     for _ in range(10):
         north.store()
-    engine = open_engine(url)
+    engine = open_engine(postgresql_url)
     for table in 'rocon_uri_announcer', 'rocon_uri_resource':
         with engine.connect() as connection:
             cursor = connection.connection.cursor()
@@ -122,7 +117,7 @@ def test_patterns_and_values_that_are_not_registered(north, south):
         south.find('rocon:/turtelbot2')
 
 
-def test_many_at_once_do_not_wait_for_each_other_for_ever(url, north, south):
+def test_many_at_once_do_not_wait_for_each_other_for_ever(postgresql_url, north, south):
     uris = ['rocon:/pr2/bob_%d/*/*' % number for number in range(300)]
 
     def work(directory, order):
@@ -140,9 +135,9 @@ def test_many_at_once_do_not_wait_for_each_other_for_ever(url, north, south):
     assert sorted(north.uris()) == sorted(uris)
 
 
-def test_nothing_is_lost_while_the_database_is_away(postgresql, url):
+def test_nothing_is_lost_while_the_database_is_away(postgresql, postgresql_url):
     reports = []
-    directory = SharedDirectory(url, 'north', report=reports.append)
+    directory = SharedDirectory(postgresql_url, 'north', report=reports.append)
     announce(directory, '/old', 'rocon:/pr2/old')
     postgresql.stop()
     try:
@@ -169,17 +164,17 @@ def other_master(tmp_path_factory):
 
 
 @pytest.fixture
-def place(robot):
+def place(robot, postgresql_url):       # which ends after the nodes
     built('rocon_uri.srv')
     with Place(robot.folder, robot.server_environment) as place:
         yield place
 
 
-def test_two_masters_have_one_answer(robot, place, other_master, url):
+def test_two_masters_have_one_answer(robot, place, other_master, postgresql_url):
     environment = dict(robot.server_environment, ROS_MASTER_URI=other_master.uri)
     with Place(robot.folder, environment) as other:
-        place.directory('_database:=' + url)
-        directory = other.directory('_database:=' + url)
+        place.directory('_database:=' + postgresql_url)
+        directory = other.directory('_database:=' + postgresql_url)
         with Seen(place) as seen:
             bob = place.announce('robot', BOB)
             alice = other.announce('robot', ALICE)
@@ -187,10 +182,11 @@ def test_two_masters_have_one_answer(robot, place, other_master, url):
             eventually(lambda: sorted(seen.resources[-1].uris) == [BOB, ALICE])
             found = subprocess.run(     # by who asks the other master
                 ['rosservice', 'call', other.namespace + '/directory/find', 'rocon:/'],
-                env=environment, stdout=subprocess.PIPE, universal_newlines=True, check=True).stdout
+                env=environment, stdout=subprocess.PIPE, universal_newlines=True, check=True,
+                timeout=PATIENCE).stdout
             assert BOB in found and ALICE in found
             end(directory, signal.SIGKILL)
-            other.directory('_database:=' + url)
+            other.directory('_database:=' + postgresql_url)
             end(alice)
             place.wait_for(BOB)
             eventually(lambda: seen.resources[-1].uris == [BOB])
@@ -198,9 +194,9 @@ def test_two_masters_have_one_answer(robot, place, other_master, url):
     assert 'Traceback' not in place.text_of('directory') + other.text_of('directory')
 
 
-def test_the_database_goes_away_for_8_seconds(place, postgresql, url):
+def test_the_database_goes_away_for_8_seconds(place, postgresql, postgresql_url):
     import rospy
-    place.directory('_database:=' + url)
+    place.directory('_database:=' + postgresql_url)
     place.announce('bob', BOB, '--period', '1', '--lifetime', '2')
     goes = place.announce('goes', 'rocon:/pc/goes/*/*')
     place.wait_for(BOB, 'rocon:/pc/goes/*/*')
@@ -227,19 +223,19 @@ def test_the_database_goes_away_for_8_seconds(place, postgresql, url):
     ('postgresql://robots:secret@127.0.0.1:1/fleet', 'resource_directory: postgresql://127.0.0.1:1')])
 def test_a_database_that_is_not_one(robot, place, database, text):
     directory = place.directory('_database:=' + database)
-    assert directory.wait(40) == 2
+    assert directory.wait(PATIENCE) == 2
     written = place.text_of('directory')
     assert text in written and 'secret' not in written and 'Traceback' not in written
 
 
-def test_a_directory_that_shares_needs_a_name_for_its_master(robot, place, url):
+def test_a_directory_that_shares_needs_a_name_for_its_master(robot, place, postgresql_url):
     import rospy
     before = rospy.get_param('/run_id')
     rospy.delete_param('/run_id')
     try:
-        assert place.directory('_database:=' + url).wait(40) == 2
+        assert place.directory('_database:=' + postgresql_url).wait(PATIENCE) == 2
         assert '/run_id' in place.text_of('directory')
-        place.directory('_database:=' + url, '_master:=ours')
+        place.directory('_database:=' + postgresql_url, '_master:=ours')
         place.wait_for()
     finally:
         rospy.set_param('/run_id', before)
