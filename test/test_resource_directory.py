@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rocon_uri import ResourceIndex, RoconURIValueError, parse
-from rocon_uri.resource_directory import Change, ResourceDirectory, What, values_of
+from rocon_uri.announcement import values_of
+from rocon_uri.resource_directory import Change, ResourceDirectory, What
 
 BOB, ALICE = 'rocon:/pr2/bob/*/*', 'rocon:/kobuki/alice/*/*'
 

@@ -26,7 +26,7 @@ LEVELS = (
     ('compatibility', 'misplaced_name', 'name_index', 'messages', 'platform'),
     ('resource_index',),
     ('resource_database',),
-    ('resource_directory',),
+    ('announcement', 'resource_directory'),
     ('announcer', 'shared_directory'),
     ('apps',),
     ('workspace', 'spec_graph', 'spec_picture'),

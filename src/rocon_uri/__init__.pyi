@@ -1,12 +1,12 @@
 """For editors and type checkers: the names that `__init__.py` imports when they are used."""
 from . import (
-    announcer as announcer, apps as apps, cli as cli, compatibility as compatibility, exceptions
-    as exceptions, exported_rules as exported_rules, field as field, field_vocabulary as
-    field_vocabulary, grammar as grammar, lint as lint, messages as messages, name_pattern as
-    name_pattern, platform as platform, rapps as rapps, resource_database as resource_database,
-    resource_directory as resource_directory, resource_index as resource_index, ros_names as
-    ros_names, sources as sources, uri as uri, vocabulary as vocabulary, workspace as workspace,
-    yaml_source as yaml_source)
+    announcement as announcement, announcer as announcer, apps as apps, cli as cli,
+    compatibility as compatibility, exceptions as exceptions, exported_rules as exported_rules,
+    field as field, field_vocabulary as field_vocabulary, grammar as grammar, lint as lint,
+    messages as messages, name_pattern as name_pattern, platform as platform, rapps as rapps,
+    resource_database as resource_database, resource_directory as resource_directory,
+    resource_index as resource_index, ros_names as ros_names, sources as sources, uri as uri,
+    vocabulary as vocabulary, workspace as workspace, yaml_source as yaml_source)
 from .compatibility import Relation as Relation, explain as explain, relation as relation
 from .exceptions import (
     PatternTooComplex as PatternTooComplex, RoconURIValueError as RoconURIValueError)

@@ -13,12 +13,12 @@ from typing import List, Optional, Union
 
 import rospy
 
+from rocon_uri.announcement import check_key, check_lifetime
 from rocon_uri.exceptions import UnregisteredValue
 from rocon_uri.messages import to_msg
 from rocon_uri.msg import Announcement
 from rocon_uri.platform import (
     default_robot_name, default_robot_type, generate_platform_rocon_uri)
-from rocon_uri.resource_directory import check_key, check_lifetime
 from rocon_uri.uri import RoconURI, parse
 from rocon_uri.vocabulary import Vocabulary
 
@@ -65,7 +65,7 @@ class Announcer:
                                      lifetime=rospy.Duration.from_sec(lifetime))
         self._publisher = rospy.Publisher(TOPIC, Announcement, latch=True, queue_size=1000)
         self._has_ended = threading.Event()
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()      # the handler of a signal may end it at any time
         self._thread = threading.Thread(target=self._announce, daemon=True)
         self._thread.start()
         rospy.on_shutdown(self.end)

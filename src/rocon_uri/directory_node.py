@@ -15,12 +15,13 @@ from typing import Callable, Dict, List, Optional, Tuple
 import rosgraph
 import rospy
 
+from rocon_uri.announcement import Values
 from rocon_uri.announcer import TOPIC
 from rocon_uri.apps.runnable import App, platform_uri
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.msg import Announcement, AppRobots, ResourceChange, Resources
 from rocon_uri.parts import FIELDS
-from rocon_uri.resource_directory import Change, ResourceDirectory, Values
+from rocon_uri.resource_directory import Change, ResourceDirectory
 from rocon_uri.sources.wording import did_you_mean, near_names, quoted
 from rocon_uri.srv import (
     ExplainResource, ExplainResourceRequest, ExplainResourceResponse, FindResources,
@@ -32,6 +33,7 @@ from rocon_uri.workspace import Workspace, read_workspace
 __all__ = ['DirectoryNode', 'main']
 
 _PERIOD = 1.0       # seconds by which topics may lag
+_ENDING = 5.0       # seconds that the end waits for the database
 
 
 class DirectoryNode:
@@ -64,10 +66,23 @@ class DirectoryNode:
             rospy.Service('~find_robots', FindRobots, _answering(self._find_robots))]
         self._subscriber = rospy.Subscriber(TOPIC, Announcement, self._take, tcp_nodelay=True)
 
-    def spin(self) -> None:
-        """Publish what changes until the node ends."""
+    def spin(self) -> bool:
+        """
+        Publish what changes until the node ends; what was announced last is stored then.
+
+        :returns: bool, did it end because it was told to?
+        """
         has_ended = threading.Event()
-        rospy.on_shutdown(has_ended.set)
+        work = threading.Thread(target=self._work, args=(has_ended,), daemon=True)
+        work.start()
+        while work.is_alive() and not rospy.is_shutdown():
+            rospy.rostime.wallsleep(0.1)
+        was_told = work.is_alive()
+        has_ended.set()         # not by the handler of a signal, which might interrupt `wait`
+        work.join(_ENDING)      # a database that does not answer keeps no node from ending
+        return was_told
+
+    def _work(self, has_ended: threading.Event) -> None:
         while not has_ended.is_set():
             self._directory.expire()
             self._directory.store()
@@ -216,5 +231,4 @@ def main() -> int:
     except (ImportError, NotImplementedError, OSError, ValueError) as error:
         print('resource_directory: %s' % ' '.join(str(error).split()), file=sys.stderr)
         return 2
-    node.spin()
-    return 0
+    return 0 if node.spin() else 1

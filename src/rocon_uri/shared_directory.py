@@ -3,10 +3,11 @@ from __future__ import annotations
 
 from typing import Callable, Dict, List, Optional, Tuple, Union
 
+from rocon_uri.announcement import Values
 from rocon_uri.exceptions import UnregisteredValue
 from rocon_uri.resource_database import DatabaseError, open_engine
 from rocon_uri.resource_database.announcers import Announced, Announcers
-from rocon_uri.resource_directory import Change, ResourceDirectory, Values
+from rocon_uri.resource_directory import Change, ResourceDirectory
 from rocon_uri.uri import RoconURI, parse
 from rocon_uri.vocabulary import Vocabulary
 
