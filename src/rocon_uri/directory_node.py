@@ -22,7 +22,7 @@ from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.msg import Announcement, AppRobots, ResourceChange, Resources
 from rocon_uri.parts import FIELDS
 from rocon_uri.resource_directory import Change, ResourceDirectory
-from rocon_uri.sources.wording import did_you_mean, near_names, quoted
+from rocon_uri.sources.wording import NamesByPart, did_you_mean, quoted
 from rocon_uri.srv import (
     ExplainResource, ExplainResourceRequest, ExplainResourceResponse, FindResources,
     FindResourcesRequest, FindResourcesResponse, FindRobots, FindRobotsRequest, FindRobotsResponse)
@@ -185,8 +185,9 @@ class DirectoryNode:
                 self._workspace = read_workspace(filter(os.path.isdir, folders))
         apps = [app for app in self._workspace.apps() if request.app in ('', app.name)]
         if request.app and not apps:
-            raise ValueError('app %s is not known%s' % (quoted(request.app), did_you_mean(
-                near_names(request.app, [app.name for app in self._workspace.apps()]))))
+            known = NamesByPart(app.name for app in self._workspace.apps())
+            raise ValueError('app %s is not known%s' % (
+                quoted(request.app), did_you_mean(known.near_misses(request.app))))
         return FindRobotsResponse([AppRobots(app.name, self._robots_of(app, self._workspace))
                                    for app in apps])
 
