@@ -135,14 +135,14 @@ class ResourceDirectory:
                 self._entries.setdefault(announcer, {})[key] = _Entry(values, uri, now + lifetime)
                 self._size += 1
                 self._hold(uri)
-                self._changed(Change(What.APPEARED, uri, None, announcer, key))
+                self._tell(What.APPEARED, uri, announcer, key)
                 return True
             before = entry.uri
             entry.values, entry.uri, entry.expires = values, uri, now + lifetime
             if uri != before:
                 self._hold(uri)
                 self._release(before)
-                self._changed(Change(What.CHANGED, uri, before, announcer, key))
+                self._tell(What.CHANGED, uri, announcer, key, before)
             return True
 
     def refuse(self, announcer: str, problem: str) -> None:
@@ -248,7 +248,11 @@ class ResourceDirectory:
         if not entries:
             del self._entries[announcer]
         self._release(uri)
-        self._changed(Change(what, uri, None, announcer, key))
+        self._tell(what, uri, announcer, key)
+
+    def _tell(self, what: What, uri: RoconURI, announcer: str, key: str,
+              before: Optional[RoconURI] = None) -> None:
+        self._changed(Change(what=what, uri=uri, before=before, announcer=announcer, key=key))
 
     def _hold(self, uri: RoconURI) -> None:
         holders = self._index.get(uri) or 0
