@@ -61,7 +61,7 @@ def test_the_page_of_a_matrix_says_what_is_compatible_and_which_fields_are(
             assert found['mark'] == ('x' if rocon_uri.is_compatible(app, robot) else '.')
             assert [mark == 'x' for mark in found['fields']] == [
                 field.is_compatible for field in rocon_uri.explain(app, robot).fields]
-    assert report['columns'][0]['label'] == 'rocon_apps/talker'
+    assert report['columns'][0]['label'] == 'cafe_rapps/patrol'
     assert report['fields'] == ['hardware_platform', 'name', 'application_framework',
                                 'operating_system']
 
@@ -293,8 +293,8 @@ def test_a_cell_says_why_when_it_is_clicked(fleet: Any) -> None:
     assert text_of(fleet, '#count') == '44 of 44 resources, 16 of 16 requests'
     row = fleet.find_elements('css selector', '#grid tbody tr[data-i]')[0]
     assert row.text.split() == (
-        'rocon:/waiterbot/waiter_1/indigo/trusty x x x . . . . x . . . . . . . .'.split())
-    row.find_elements('tag name', 'td')[5].click()
+        'rocon:/waiterbot/waiter_1/indigo/trusty . x x x . x x . . . . . . . . .'.split())
+    row.find_elements('tag name', 'td')[8].click()
     why = text_of(fleet, '#why')
     assert 'rocon:/waiterbot/waiter_1/indigo/trusty' in why and 'turtlebot_rapps/maze' in why
     assert '. hardware_platform turtlebot3 waiterbot' in why and 'x operating_system' in why
@@ -309,7 +309,7 @@ def test_the_fleet_is_filtered_by_field_and_by_text(fleet: Any) -> None:
     fleet.find_element('name', 'row').send_keys('burger_02')
     assert first_rows(fleet) == ['rocon:/turtlebot3/burger_02/noetic/focal']
     fleet.find_element('name', 'column').send_keys('cafe_rapps')
-    assert text_of(fleet, '#count') == '1 of 44 resources, 2 of 16 requests'
+    assert text_of(fleet, '#count') == '1 of 44 resources, 5 of 16 requests'
 
 
 def test_the_fleet_is_sorted(fleet: Any) -> None:
@@ -318,7 +318,7 @@ def test_the_fleet_is_sorted(fleet: Any) -> None:
     heads = fleet.find_elements('css selector', '#grid thead button')
     [serve] = [head for head in heads if head.text == 'cafe_rapps/serve']
     serve.click()
-    assert all(rocon_uri.is_compatible(uris(APPS)[7], row) for row in first_rows(fleet))
+    assert all(rocon_uri.is_compatible(uris(APPS)[1], row) for row in first_rows(fleet))
     assert text_of(fleet, '#grid thead [aria-sort]') == 'cafe_rapps/serve'
 
 
@@ -331,7 +331,7 @@ def test_the_page_works_by_keyboard(fleet: Any) -> None:
             ActionChains(fleet).send_keys(key).perform()
 
     fleet.execute_script("document.querySelector('#grid td[tabindex]').focus()")
-    press(Keys.ARROW_DOWN, *[Keys.ARROW_RIGHT] * 3, Keys.ENTER)
+    press(Keys.ARROW_DOWN, *[Keys.ARROW_RIGHT] * 7, Keys.ENTER)
     why = text_of(fleet, '#why')
     assert 'rocon:/waiterbot/waiter_2/indigo/trusty' in why
     assert 'kobuki_rapps/random_walker' in why
