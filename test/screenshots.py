@@ -1,24 +1,34 @@
 """
-Makes the pictures of the documentation that a browser shows.
+Makes the pictures of the documentation: what the command draws, and pages that a browser shows.
 
 ``/usr/bin/python3 test/screenshots.py`` writes them to ``doc/pictures``, or to the folder that it
-is given. It needs Debian's chromium, chromium-driver and python3-selenium.
+is given. It needs graphviz, and Debian's chromium, chromium-driver and python3-selenium. A picture
+of a page has a digest of that page in it, so that a test sees without a browser whether it is old.
 """
 from __future__ import annotations
 
+import hashlib
 import html
 import os
 import pty
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 from pathlib import Path
-from typing import Any, List, Match
+from typing import Any, List, Match, Optional
 
-from sources import ROOT
-
+ROOT = Path(__file__).resolve().parent.parent
+#: the commands of README whose last argument is the file to write
+CAFE = ('specs graph --package-path examples/workspace'
+        ' --robot rocon:/turtlebot2/cybernetic_pirate/noetic/focal --output')
+FLEET = ('apps --package-path examples/workspace --robots-in examples/fleet.txt'
+         ' --defaults examples/workspace/defaults.yaml --html')
+#: the word that a picture has before the digest of its page
+PAGE = b'Page'
 #: A terminal as a page: the text goes where %s is.
 TERMINAL = '''<!doctype html><meta charset="utf-8"><style>
 body { margin: 0; background: #1d2026; color: #e4e6ea;
@@ -92,34 +102,77 @@ def resize(browser: Any, width: int, height: int) -> None:
         'width': width, 'height': height, 'deviceScaleFactor': 1, 'mobile': False})
 
 
-def fleet_report(browser: Any, folder: Path, path: Path) -> None:
-    """The apps of the café on all robots of the fleet, with the reasons of one cell."""
+def run(*arguments: str) -> None:
+    """Run the command on the examples; what it could not do is an error, what it finds is none."""
+    done = subprocess.run([sys.executable, 'scripts/rocon_uri', *arguments], cwd=str(ROOT),
+                          env=dict(os.environ, ROS_PACKAGE_PATH='', ROCON_URI_RULES=''))
+    if done.returncode > 1:
+        raise SystemExit('rocon_uri %s: exit status %d' % (arguments[0], done.returncode))
+
+
+def cafe(path: Path) -> None:
+    """The workspace of the café, and what one robot can run of it."""
+    run(*CAFE.split(), str(path))
+
+
+def digest(page: Path) -> bytes:
+    """What a picture of a page says that it was made of."""
+    return hashlib.sha256(page.read_bytes()).hexdigest().encode()
+
+
+def page_of(picture: bytes) -> Optional[bytes]:
+    """The digest of the page that a picture shows, from its chunk of text."""
+    found = re.search(b'tEXt' + PAGE + b'\\0([0-9a-f]{64})', picture)
+    return found.group(1) if found else None
+
+
+def save(browser: Any, page: Path, path: Path) -> None:
+    """Write a picture of the page that a browser shows, with the digest of the page."""
+    picture = browser.get_screenshot_as_png()
+    chunk = b'tEXt' + PAGE + b'\0' + digest(page)
+    head = 8 + 25       # the signature, and the chunk that always comes first
+    path.write_bytes(picture[:head] + struct.pack('>I', len(chunk) - 4) + chunk
+                     + struct.pack('>I', zlib.crc32(chunk)) + picture[head:])
+
+
+def fleet_page(folder: Path) -> Path:
+    """The apps of the café on all robots of the fleet."""
     page = folder / 'fleet.html'
-    subprocess.run(
-        [sys.executable, 'scripts/rocon_uri', 'apps', '--package-path', 'examples/workspace',
-         '--robots-in', 'examples/fleet.txt', '--defaults', 'examples/workspace/defaults.yaml',
-         '--html', str(page)], cwd=str(ROOT), check=False)
+    run(*FLEET.split(), str(page))
+    return page
+
+
+def fleet_report(browser: Any, folder: Path, path: Path) -> None:
+    """The fleet report, with the reasons of one cell."""
+    page = fleet_page(folder)
     resize(browser, 1200, 720)      # before, since the page is drawn anew when its size changes
     browser.get(page.as_uri())
     row = browser.find_elements('css selector', '#grid tbody tr[data-i]')[8]
     next(cell for cell in row.find_elements('tag name', 'td') if cell.text.strip() == '.').click()
-    path.write_bytes(browser.get_screenshot_as_png())
+    save(browser, page, path)
 
 
-def finding(browser: Any, folder: Path, path: Path) -> None:
+def finding_page(folder: Path) -> Path:
     """What the linter finds in the café with mistakes."""
     faulty_workspace(folder)
     page = folder / 'finding.html'
     page.write_text(as_page(in_terminal(['specs', 'check', 'workspace'], folder)), encoding='utf-8')
+    return page
+
+
+def finding(browser: Any, folder: Path, path: Path) -> None:
+    """The findings in a terminal."""
+    page = finding_page(folder)
     resize(browser, 1000, 100)
     browser.get(page.as_uri())
     resize(browser, 1000, browser.execute_script(
         'return document.querySelector("pre").offsetHeight'))
-    path.write_bytes(browser.get_screenshot_as_png())
+    save(browser, page, path)
 
 
 def main(target: Path) -> None:
     """Write all pictures to a folder."""
+    cafe(target / 'cafe.svg')
     browser = open_browser()
     try:
         with tempfile.TemporaryDirectory() as folder:

@@ -275,20 +275,30 @@ def test_on_a_terminal_a_finding_has_colour_and_its_line(workspace):
     shown = run_on_terminal('specs', 'check', str(workspace / DANCE), TERM='xterm')
     assert '\x1b[31merror\x1b[0m: launch file' in shown
     assert '\x1b[33mwarning\x1b[0m: icon' in shown
-    assert '    launch: dance.launch\n            ^\n' in shown
+    assert '    launch: dance.launch\n            ^^^^^^^^^^^^\n' in shown
 
 
 def test_without_colour_it_still_has_its_line(workspace):
     shown = run_on_terminal('specs', 'check', str(workspace / DANCE), NO_COLOR='1')
     assert '\x1b' not in shown
-    assert '    icon: dance.png\n          ^\n' in shown
+    assert '    icon: dance.png\n          ^^^^^^^^^\n' in shown
 
 
 def test_a_long_line_is_cut_around_the_place(workspace):
     (workspace / DANCE).write_text('{%s, icon: dance.png, colour: %s}' % (
         RAPP.strip().replace('\n', ', ').replace('A dance', 'a' * 200), 'b' * 200))
     shown = run_on_terminal('specs', 'check', str(workspace / DANCE), NO_COLOR='1')
-    for line, below in re.findall('    (.*)\n    ( *\\^)\n', shown):
+    marked = []
+    for line, below in re.findall('    (.*)\n    ( *\\^+)\n', shown):
         assert len(line) < 110 and line.startswith('...') and line.endswith('...')
-        assert line[len(below) - 1:].startswith(('dance.launch', 'dance.png', 'colour'))
-    assert shown.count('^') == 3
+        marked.append(line[below.index('^'):len(below)])
+    assert sorted(marked) == ['colour', 'dance.launch', 'dance.png']
+
+
+def test_carets_end_where_a_long_line_is_cut(workspace):
+    name = 'd' * 63 + '.launch'
+    (workspace / DANCE).write_text(RAPP.replace('dance.launch', name))
+    shown = run_on_terminal('specs', 'check', str(workspace / DANCE), NO_COLOR='1')
+    [(line, below)] = re.findall('    (launch.*)\n    ( *\\^+)\n', shown)
+    assert line.endswith('...') and len(below) == len(line) - 3
+    assert line[below.index('^'):len(below)] == name[:below.count('^')]

@@ -301,6 +301,20 @@ def test_a_cell_says_why_when_it_is_clicked(fleet: Any) -> None:
     assert len(fleet.get_screenshot_as_png()) > 10000
 
 
+def test_no_label_touches_the_next(fleet: Any) -> None:
+    fleet.set_window_size(1200, 900)
+    places = fleet.execute_script('''
+        return [...document.querySelectorAll('label')].map(function (label) {
+          var range = document.createRange();
+          range.selectNodeContents(label.firstChild);
+          var place = range.getBoundingClientRect();
+          return [place.top, place.left, place.right];
+        })''')
+    assert len(places) == 7 and places == sorted(places)
+    assert all(right + 12 < next_left for (top, _, right), (next_top, next_left, _)
+               in zip(places, places[1:]) if top == next_top)
+
+
 def test_the_fleet_is_filtered_by_field_and_by_text(fleet: Any) -> None:
     fleet.find_element('name', 'field0').send_keys('turtlebot3')
     assert text_of(fleet, '#count').startswith('%d of 44 resources' % sum(

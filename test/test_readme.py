@@ -72,8 +72,9 @@ def test_the_scripts_that_are_named_are_there():
 def test_the_picture_shows_the_workspace_as_it_is():
     done = subprocess.run(
         [sys.executable, '-B', 'scripts/rocon_uri', 'specs', 'graph', '--json', '--package-path',
-         'examples/workspace', '--robot', 'rocon:/turtlebot2/cybernetic_pirate/noetic/focal'], cwd=str(ROOT),
-        env=dict(os.environ, PYTHONPATH=str(SOURCE)), stdout=subprocess.PIPE, check=True)
+         'examples/workspace', '--robot', 'rocon:/turtlebot2/cybernetic_pirate/noetic/focal'],
+        cwd=str(ROOT), env=dict(os.environ, PYTHONPATH=str(SOURCE)), check=True,
+        stdout=subprocess.PIPE)
     picture = (ROOT / 'doc' / 'pictures' / 'cafe.svg').read_text(encoding='utf-8')
     shown = set(re.findall(r'<title>([^<]+)</title>', picture))
     nodes = {node['id'] for node in json.loads(done.stdout.decode())['nodes']}

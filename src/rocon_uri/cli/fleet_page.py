@@ -44,7 +44,7 @@ body { margin: 0; height: 100vh; display: flex; flex-direction: column; backgrou
 header, form { padding: 6px 12px; }
 h1 { font-size: 18px; margin: 0; }
 header p { margin: 0; }
-form { display: flex; flex-wrap: wrap; gap: 8px; border-bottom: 1px solid var(--line); }
+form { display: flex; flex-wrap: wrap; gap: 8px 18px; border-bottom: 1px solid var(--line); }
 label { display: flex; flex-direction: column; font-size: 12px; }
 input, select { font: inherit; width: 11em; }
 main { flex: 1; display: flex; min-height: 0; }
@@ -105,6 +105,13 @@ Enter, to see why.</p></aside>
     if (text !== undefined) { made.textContent = text; }
     if (parent) { parent.appendChild(made); }
     return made;
+  }
+  function heading(text) {      // a line of which ends before a slash
+    var made = make('h2', why);
+    text.split('/').forEach(function (part, i) {
+      if (i) { make('wbr', made); }
+      made.appendChild(document.createTextNode((i ? '/' : '') + part));
+    });
   }
   function outcome(r, c) { return outcomes[cells[r][c]]; }
   function input(name, what) {
@@ -210,8 +217,8 @@ Enter, to see why.</p></aside>
   function explain(r, c) {
     var row = rows[r], column = columns[c], result = outcome(r, c);
     why.textContent = '';
-    make('h2', why, row.text);
-    make('h2', why, column.label);
+    heading(row.text);
+    heading(column.label);
     if (column.about) { make('p', why, column.about); }
     make('p', why, result.mark + '  ' + report.meanings[result.mark]);
     if (result.fields) {

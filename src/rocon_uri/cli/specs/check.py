@@ -155,12 +155,14 @@ def _show_text(findings: Iterable[Finding]) -> None:
         print(text[:-len(sentence)] + paint(finding.severity, colour)
               + sentence[len(finding.severity):])
         if finding.line is not None:
-            for line in _marked(lines.line(finding.file_name, finding.line), finding.column or 1):
+            for line in _marked(lines.line(finding.file_name, finding.line), finding.column or 1,
+                                finding.problem):
                 print('    ' + line)
 
 
-def _marked(line: str, column: int) -> List[str]:
-    """The part of a line around a column, and a caret for below it."""
+def _marked(line: str, column: int, problem: str) -> List[str]:
+    """The part of a line around a column, and carets below the text there that a problem quotes."""
+    import re
     start = max(0, column - 41)
     before = '...' if start else ''
     shown = ''.join(c if c.isprintable() else ' ' if c == '\t' else '?'
@@ -168,7 +170,11 @@ def _marked(line: str, column: int) -> List[str]:
     after = '...' if len(line) > column + 60 else ''
     if not shown.strip():
         return []
-    return [before + shown + after, ' ' * (len(before) + column - 1 - start) + '^']
+    at = column - 1 - start
+    quoted = [len(text) for text in re.findall("'([^']+)'", problem)
+              if line.startswith(text, column - 1)]
+    carets = '^' * max(1, min(max(quoted, default=1), len(shown) - at))
+    return [before + shown + after, ' ' * (len(before) + at) + carets]
 
 
 def _explain(args: argparse.Namespace, report: PackageReport) -> int:
