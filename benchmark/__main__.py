@@ -19,6 +19,7 @@ import json
 import os
 import platform
 import sys
+import time
 from glob import glob
 
 from measure import with_unit
@@ -52,9 +53,20 @@ def main():
     print('missed: ' + '; '.join(missed) if missed else 'every target is met')
     if args.json:
         with open(args.json, 'w') as file:
-            json.dump({'python': platform.python_version(), 'machine': platform.machine(),
-                       'figures': figures}, file, indent=2)
+            json.dump(dict(where(), figures=figures), file, indent=2)
     return 1 if missed else 0
+
+
+def where():
+    """What the figures depend on: the machine, and when it was."""
+    processor = platform.processor()
+    if os.path.exists('/proc/cpuinfo'):
+        with open('/proc/cpuinfo') as file:
+            processor = dict(line.split('\t: ', 1) for line in file.read().splitlines()
+                             if '\t: ' in line).get('model name', processor)
+    return {'python': platform.python_version(), 'machine': platform.machine(),
+            'processor': ' '.join(processor.split()), 'processors': os.cpu_count(),
+            'load': os.getloadavg()[0], 'date': time.strftime('%Y-%m-%d')}
 
 
 def show(figure):

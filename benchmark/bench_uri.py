@@ -25,7 +25,6 @@ def figures():
     yield from reading_one()
     yield from reading_many()
     yield from comparing_names()
-    yield from other_libraries()
 
 
 def reading_one():
@@ -74,29 +73,6 @@ def comparing_names():
              'for robot in robots: is_compatible(request, robot)'], known, 1, 20)
         yield figure('is_compatible, %s and names of 20 characters' % pattern,
                      compare / len(names), reference / len(names), 1.0)
-
-
-def other_libraries():
-    """Those that are installed, reading URIs as long as ours; all of them different."""
-    readers = {}
-    try:
-        from packageurl import PackageURL
-        readers['packageurl-python'] = 'pkg:pypi/', PackageURL.from_string
-    except ImportError:
-        pass
-    try:
-        from yarl import URL
-        readers['yarl'] = 'http://', URL
-    except ImportError:
-        pass
-    for name, (prefix, read) in readers.items():
-        numbers = range(5000)
-        ours = ['rocon:/turtlebot2/cybernetic_%06d/noetic/focal' % number for number in numbers]
-        theirs = [prefix + text.replace(':', '')[len(prefix) - 1:] for text in ours]
-        known = {'ours': ours, 'parse': rocon_uri.parse, 'theirs': theirs, 'read': read}
-        reference, parse = best_times(['for text in theirs: read(text)',
-                                       'for text in ours: parse(text)'], known, 1)
-        yield figure('parse, distinct names', parse / 5000, reference / 5000, reference_name=name)
 
 
 def figure(name, seconds, reference, target=None, reference_name=REFERENCE):

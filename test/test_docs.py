@@ -70,6 +70,21 @@ def test_the_page_of_values_has_the_vocabulary_that_comes_with_the_package(tmp_p
         'run doc/make_vocabulary.py')
 
 
+def test_the_page_on_performance_shows_the_figures_that_were_written_down():
+    import json
+    import runpy
+    sys.path.insert(0, str(ROOT / 'benchmark'))
+    try:
+        drawn = runpy.run_path(str(ROOT / 'benchmark' / 'picture.py'))
+    finally:
+        sys.path.pop(0)
+    found = json.loads((ROOT / 'doc' / 'performance.json').read_text(encoding='utf-8'))
+    picture = (ROOT / 'doc' / 'pictures' / 'performance.svg').read_text(encoding='utf-8')
+    assert picture == drawn['picture'](found), 'run benchmark/picture.py'
+    page = (ROOT / 'doc' / 'performance.rst').read_text(encoding='utf-8')
+    assert drawn['machine_of'](found) in ' '.join(page.split())
+
+
 def test_sphinx_builds_it_without_a_warning(tmp_path):
     pytest.importorskip('sphinx')
     pytest.importorskip('sqlalchemy', reason='SQLAlchemy is not installed')

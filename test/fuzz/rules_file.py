@@ -102,7 +102,7 @@ def values(vocabulary, field):
 def check_added(vocabulary, rules):
     """All that a file names is in the field that it names it for."""
     for below in rules if isinstance(rules, list) else [rules or {}]:
-        for field in below or {}:
+        for field in below if isinstance(below, dict) else ():      # one may stand alone
             assert set(names_in(below[field])) <= set(vocabulary.field(field))
 
 
