@@ -16,7 +16,8 @@ from fuzz.batch import run_batch
 
 INPUTS = {'uri': 400, 'name_pattern': 400, 'spec_file': 200, 'rapp_file': 60, 'app_file': 60,
           'interactions': 60, 'rules_file': 60, 'launch_file': 80, 'package_exports': 80,
-          'message': 200, 'server_requests': 60}
+          'message': 200, 'server_requests': 60,
+          'directory': 60}
 
 
 @pytest.mark.parametrize('name', batch.TARGETS)

@@ -19,7 +19,8 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 TARGETS = ('uri', 'name_pattern', 'spec_file', 'rapp_file', 'app_file', 'interactions',
-           'rules_file', 'launch_file', 'package_exports', 'message', 'server_requests')
+           'rules_file', 'launch_file', 'package_exports', 'message', 'server_requests',
+           'directory')
 
 LOGGERS = ('capabilities', 'catkin_pkg', 'rosout')      # of what is damaged they say a lot
 
