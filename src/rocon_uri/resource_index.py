@@ -15,7 +15,7 @@ from rocon_uri.uri import RoconURI, aligned, is_compatible, parse, with_any_name
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Type, Union
+    from typing import Any, Dict, Iterable, Iterator, List, Tuple, Type, Union
     from rocon_uri.field import ValuesField
     from rocon_uri.name_pattern import NamePattern
     from rocon_uri.vocabulary import Vocabulary
@@ -143,7 +143,8 @@ class ResourceIndex(Resources):
         except PatternTooComplex as error:
             undecided = error
         numbers.sort()
-        return _with_error_last(list(map(self._resources.__getitem__, numbers)), undecided)
+        resources = list(map(self._resources.__getitem__, numbers))
+        return _with_error_last(resources, undecided) if undecided else iter(resources)
 
     def count(self, request: Resource) -> int:
         """
@@ -272,7 +273,6 @@ def _kind_key(uri: RoconURI) -> KindKey:
 
 
 def _with_error_last(found: List[RoconURI],
-                     error: Optional[PatternTooComplex]) -> Iterator[RoconURI]:
+                     error: PatternTooComplex) -> Iterator[RoconURI]:
     yield from found
-    if error:
-        raise error
+    raise error

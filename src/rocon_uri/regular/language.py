@@ -52,8 +52,8 @@ def union(sets: List[int], selection: int) -> int:
     >>> union([0b0001, 0b0010, 0b1000], 0b101) == 0b1001
     True
     """
-    if not selection:
-        return 0
+    if selection & (selection - 1) == 0:    # at most one, as mostly: in a tenth of the time
+        return sets[selection.bit_length() - 1] if selection else 0
     lowest = (selection & -selection).bit_length() - 1
     selected = format(selection >> lowest, 'b')[::-1].encode().translate(_IS_ONE)
     return reduce(or_, compress(sets[lowest:lowest + len(selected)], selected))
