@@ -83,6 +83,29 @@ def test_robots_may_come_before_the_directory(place):
     place.wait_for(BOB)
 
 
+def test_by_default_a_robot_announces_this_machine(place):
+    import rospy
+    from rocon_uri.messages import from_msg
+    from rocon_uri.msg import Announcement
+    from rocon_uri.platform import (
+        default_robot_name, default_robot_type, generate_platform_rocon_uri)
+    said = []
+    subscriber = rospy.Subscriber(place.namespace + '/resource_announcements', Announcement,
+                                  said.append)
+    try:
+        robot = place.run(ANNOUNCE, 'robot')
+        eventually(lambda: said)
+        assert end(robot) == 0
+        eventually(lambda: said[-1].lifetime.to_sec() == 0)
+    finally:
+        subscriber.unregister()
+    assert str(from_msg(said[0].uri)) == str(
+        generate_platform_rocon_uri(default_robot_type, default_robot_name()))
+    assert (said[0].key, said[0].lifetime.to_sec()) == ('', 15.0)     # three periods of 5 s
+    assert said[0]._connection_header['callerid'] == place.namespace + '/robot'
+    assert said[0]._connection_header['latching'] == '1'
+
+
 def test_one_call_announces_changes_and_ends(robot, place, monkeypatch):
     from rocon_uri import announcer as module
     # this process is a node in another namespace

@@ -16,7 +16,7 @@ from ros_master import Master
 pytest.importorskip('sqlalchemy', reason='SQLAlchemy is not installed')
 
 from rocon_uri.announcement import values_of      # noqa: E402
-from rocon_uri.resource_database import ResourceDatabase, open_engine       # noqa: E402
+from rocon_uri.resource_database import ResourceDatabase, announcers, open_engine       # noqa: E402
 from rocon_uri.shared_directory import SharedDirectory  # noqa: E402
 
 BOB, ALICE = 'rocon:/pr2/bob/*/*', 'rocon:/turtlebot2/alice/*/*'
@@ -214,6 +214,22 @@ def test_the_database_goes_away_for_8_seconds(place, postgresql, postgresql_url)
     eventually(lambda: 'the database is back' in place.text_of('directory'))
     place.wait_for(BOB, ALICE)
     assert 'Traceback' not in place.text_of('directory')
+
+
+def test_a_directory_ends_while_the_database_does_not_answer(place, postgresql, postgresql_url):
+    import psycopg2
+    directory = place.directory('_database:=' + postgresql_url)
+    place.wait_for()
+    holder = psycopg2.connect(postgresql_url)
+    try:
+        cursor = holder.cursor()
+        cursor.execute('SELECT pg_advisory_lock(%d)' % announcers._LOCK)
+        place.announce('bob', BOB)
+        waiting = "SELECT count(*) FROM pg_locks WHERE locktype = 'advisory' AND NOT granted"
+        eventually(lambda: cursor.execute(waiting) or cursor.fetchone() == (1,))
+        assert end(directory) == 0
+    finally:
+        holder.close()
 
 
 @pytest.mark.parametrize('database, text', [

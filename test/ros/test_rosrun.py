@@ -11,6 +11,7 @@ import pytest
 from built import unless_built
 
 EXAMPLES = Path(__file__).resolve().parents[2] / 'examples'
+ROSBASH = Path('/usr/share/bash-completion/completions/rosbash')
 
 
 def is_in_ros_package_path() -> bool:
@@ -34,6 +35,16 @@ def test_parse_shows_the_fields():
     assert (done.returncode, done.stderr) == (0, '')
     for value in 'turtlebot2', 'bob', 'noetic', 'focal':
         assert value in done.stdout
+
+
+@pytest.mark.skipif(not ROSBASH.exists(), reason='rosbash is not installed')
+def test_tab_offers_the_command_and_the_nodes():
+    done = subprocess.run(
+        ['bash', '-c', '. "$0"; COMP_WORDS=(rosrun rocon_uri ""); COMP_CWORD=2; COMP_LINE='
+         '"rosrun rocon_uri "; "$(complete -p rosrun | sed "s/.*-F \\([^ ]*\\).*/\\1/")"; '
+         'printf "%s\n" "${COMPREPLY[@]}"', str(ROSBASH)],
+        stdout=subprocess.PIPE, universal_newlines=True, check=True)
+    assert sorted(set(done.stdout.split())) == ['announce', 'resource_directory', 'rocon_uri']
 
 
 def test_parse_of_a_bad_uri_exits_2():
