@@ -23,6 +23,7 @@ extensions = ['sphinx.ext.autodoc']
 autodoc_member_order = 'bysource'
 autodoc_default_options = {'members': True}
 default_role = 'py:obj'
+smartquotes = False     # '' is an empty text
 nitpicky = _sphinx_version >= (5, 3)      # Debian 12; older ones do not find all types
 nitpick_ignore = [      # others' types, and variables that stand for a type
     ('py:class', 'os.PathLike'), ('py:class', 'CatkinPackage'), ('py:class', 'Engine'),

@@ -95,6 +95,7 @@ def test_sphinx_builds_it_without_a_warning(tmp_path):
     assert (tmp_path / 'index.html').exists()
     pages = {path.name: path.read_text(encoding='utf-8') for path in tmp_path.glob('*.html')}
     for name, text in pages.items():
+        assert not re.search('&lt;[^&]*object(&gt;| at 0x)', text), name     # as a default
         for page, anchor in re.findall(r'href="(\w+\.\w+)(?:#([^"]*))?"', text):
             assert page in pages, (name, page)
             assert not anchor or 'id="%s"' % anchor in pages[page], (name, page, anchor)

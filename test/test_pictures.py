@@ -49,6 +49,15 @@ def test_readme_shows_each_picture_and_says_what_is_on_it() -> None:
     assert all(len(text.split()) > 4 for text in shown)
 
 
+def test_the_pages_show_each_picture_and_say_what_is_on_it() -> None:
+    pages = [page.read_text(encoding='utf-8') for page in (ROOT / 'doc').glob('*.rst')]
+    shown = {name: text for page in pages for name, text in re.findall(
+        r'^\.\. image:: pictures/(\S+)\n   :alt: (.*)$', page, re.MULTILINE)}
+    assert sorted(shown) == sorted(path.name for path in PICTURES.iterdir())
+    assert sum(page.count('.. image::') for page in pages) == sum(
+        page.count('   :alt: ') for page in pages)
+
+
 @pytest.mark.parametrize('command', [screenshots.CAFE, screenshots.FLEET], ids=['cafe', 'fleet'])
 def test_readme_says_which_command_makes_a_picture(command: str) -> None:
     readme = (ROOT / 'README.md').read_text(encoding='utf-8')

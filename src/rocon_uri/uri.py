@@ -25,7 +25,15 @@ default_uri_string = 'rocon://'
 _MEMO_SIZE = 4096
 _MEMO_TEXT_LENGTH = 1024
 
-_UNSET: Any = object()      # the default of an argument that is left out
+
+class _Unset:
+    """What an argument is that is left out, as help() and the documentation show it."""
+
+    def __repr__(self) -> str:
+        return 'unchanged'
+
+
+_UNSET: Any = _Unset()
 
 
 class RoconURI(Reading):
