@@ -22,6 +22,8 @@ from pathlib import Path
 from typing import Any, List, Match, Optional
 
 ROOT = Path(__file__).resolve().parent.parent
+#: the pictures; benchmark/picture.py makes another one
+NAMES = 'cafe.svg', 'fleet_report.png', 'finding.png'
 #: the commands of README whose last argument is the file to write
 CAFE = ('specs graph --package-path examples/workspace'
         ' --robot rocon:/turtlebot2/cybernetic_pirate/noetic/focal --output')
