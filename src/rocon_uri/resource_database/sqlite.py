@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 __all__ = ['SQLite', 'prepare_file']
 
 _BUSY_MILLISECONDS = 60000      # to wait for another writer, whose batch takes less
+# Of pages in memory. The rows of a batch go to pages all over the indexes: with what SQLite has by
+# default, which is enough for reading, loading 300,000 takes 1.4 times as long.
+_READING_KIB = 2000
+_WRITING_KIB = 65536
 
 
 class SQLite(Dialect):
@@ -35,10 +39,10 @@ class SQLite(Dialect):
         return re.sub(r'%\((\w+)\)s', r':\1', statement)
 
     def begin_reading(self, connection: Connection) -> DBAPICursor:
-        return _begin(connection, 'BEGIN')
+        return _begin(connection, 'BEGIN', _READING_KIB)
 
     def begin_writing(self, connection: Connection) -> DBAPICursor:
-        return _begin(connection, 'BEGIN IMMEDIATE')
+        return _begin(connection, 'BEGIN IMMEDIATE', _WRITING_KIB)
 
     def streaming_cursor(self, connection: Connection) -> DBAPICursor:
         return connection.connection.cursor()
@@ -96,7 +100,7 @@ class SQLite(Dialect):
         cursor.executemany(statement, [dict(row._asdict(), now=now) for row in sorted(rows)])
 
 
-def _begin(connection: Connection, statement: str) -> DBAPICursor:
+def _begin(connection: Connection, statement: str, cache_kib: int) -> DBAPICursor:
     cursor = connection.connection.cursor()
     if 'rocon_uri' not in connection.info:
         add_functions(cursor.connection)
@@ -106,6 +110,7 @@ def _begin(connection: Connection, statement: str) -> DBAPICursor:
             cursor.fetchall()
         connection.info['rocon_uri'] = True
     if not cursor.connection.in_transaction:
+        cursor.execute('PRAGMA cache_size = -%d' % cache_kib)
         cursor.execute(statement)
     return cursor
 
