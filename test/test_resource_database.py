@@ -1,6 +1,8 @@
 """A database of resources: whatever is asked, the answers are those of ResourceIndex."""
 import json
 import random
+import sqlite3
+import time
 from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
 
@@ -307,6 +309,20 @@ class TestSeveralProcesses:
         assert len(ResourceDatabase(engines[0])) == 1
         for engine in engines:
             engine.dispose()
+
+
+def test_sqlite_waits_for_another_that_makes_the_file(tmp_path, monkeypatch):
+    path = tmp_path / 'fleet.db'
+    other = sqlite3.connect(str(path), isolation_level=None)
+    other.execute('BEGIN EXCLUSIVE')
+    monkeypatch.setattr(time, 'sleep', lambda seconds: other.execute('COMMIT'))
+    engine = sqlalchemy.create_engine('sqlite:///%s' % path, connect_args={'timeout': 0})
+    fleet = ResourceDatabase(engine)
+    assert not other.in_transaction
+    fleet.add('rocon:/pr2')
+    assert len(fleet) == 1
+    engine.dispose()
+    other.close()
 
 
 def test_sqlite_looks_up_what_a_request_says(tmp_path):

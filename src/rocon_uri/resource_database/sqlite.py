@@ -4,6 +4,8 @@ from __future__ import annotations
 import json
 import os
 import re
+import sqlite3
+import time
 from typing import TYPE_CHECKING, Dict, Iterable, List, Mapping, Tuple
 
 from sqlalchemy.pool import StaticPool
@@ -134,5 +136,18 @@ def prepare_file(engine: Engine, create: bool) -> None:
             raise ValueError('SQLite in memory needs an engine with poolclass=StaticPool: else '
                              'each connection has a database of its own')
         if is_file and create:
+            _set_wal(cursor)
+
+
+def _set_wal(cursor: DBAPICursor) -> None:
+    """Set WAL. While another one does, SQLite may refuse that at once, whatever its timeout is."""
+    end = time.monotonic() + _BUSY_MILLISECONDS / 1000
+    while True:
+        try:
             cursor.execute('PRAGMA journal_mode = WAL')
             cursor.fetchall()
+            return
+        except sqlite3.OperationalError as error:
+            if 'locked' not in str(error) or time.monotonic() >= end:
+                raise
+        time.sleep(0.01)
