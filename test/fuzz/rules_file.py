@@ -121,7 +121,8 @@ def check_vocabulary(vocabulary):
     """What was known before stands for no less, and each new value can be asked for."""
     for field in VOCABULARY_FIELDS:
         before, now = values(BUNDLED, field), values(vocabulary, field)
-        assert all(set(before[name]) - {name} <= set(now[name]) for name in before)
+        assert all(set(now[below]) <= set(now[name])      # a value may have become a group
+                   for name in before for below in before[name])
         for name in set(now) - set(before):
             assert is_legal_base_name(name)
             uri = 'rocon:/' + '/'.join(
