@@ -133,6 +133,12 @@ def test_what_a_page_links_to_is_there(page):
     assert links
 
 
+def test_readme_links_to_every_page_but_those_that_sphinx_fills():
+    linked = set(re.findall(r'\]\(doc/(\w+)\.rst', README))
+    pages = {path.stem for path in (ROOT / 'doc').glob('*.rst')}
+    assert pages - linked == {'index', 'api', 'changelog'} and linked <= pages
+
+
 def test_the_scripts_that_are_named_are_there():
     named = re.findall(r'\bbash ([a-z]+/[a-z]+)', ''.join(page.read_text() for page in PAGES))
     assert {'examples/run', 'examples/demo', 'test/run', 'test/long', 'test/wheel'} <= set(named)

@@ -62,6 +62,17 @@ def test_a_key_is_packages_on_both_systems(system: str) -> None:
                 and key not in ('graphviz', 'postgresql'))
 
 
+def test_the_old_package_of_the_same_name_is_replaced() -> None:
+    root = ElementTree.parse(str(MANIFESTS[0])).getroot()
+    assert root.findtext('conflict') == root.findtext('replace') == 'capabilities'
+
+
+def test_a_package_inside_a_package_is_not_found() -> None:
+    packages = pytest.importorskip('catkin_pkg.packages', reason='catkin_pkg is not installed')
+    found = packages.find_package_paths(str(ROOT))
+    assert found == ['.']
+
+
 @pytest.mark.skipif('rocon_uri' not in PACKAGES or this_system() is None,
                     reason='not where what the tests need was installed by apt-get')
 def test_apt_knows_the_packages() -> None:

@@ -47,6 +47,14 @@ def test_tab_offers_the_command_and_the_nodes():
     assert sorted(set(done.stdout.split())) == ['announce', 'resource_directory', 'rocon_uri']
 
 
+@pytest.mark.parametrize('name', ['rocon_uri', 'announce', 'resource_directory'])
+def test_the_python_is_the_one_that_sees_ros(name):
+    found = subprocess.run(['catkin_find', '--first-only', '--libexec', 'rocon_uri', name],
+                           stdout=subprocess.PIPE, universal_newlines=True, check=True)
+    with open(found.stdout.strip()) as script:
+        assert script.readline() == '#!/usr/bin/python3\n'
+
+
 def test_parse_of_a_bad_uri_exits_2():
     done = rosrun('parse', 'rocon:/turtelbot2')
     assert (done.returncode, done.stdout) == (2, '')
