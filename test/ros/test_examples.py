@@ -22,8 +22,9 @@ def finds_both_packages() -> bool:
         for name in ('rocon_uri', 'capabilities'))
 
 
-pytestmark = [unless_built(finds_both_packages(), 'no ROS environment with both packages in it'),
-              pytest.mark.skipif(not (EXAMPLES / 'run').is_file(), reason='examples/run is not here')]
+pytestmark = [
+    unless_built(finds_both_packages(), 'no ROS environment with both packages in it'),
+    pytest.mark.skipif(not (EXAMPLES / 'run').is_file(), reason='examples/run is not here')]
 
 
 def test_the_demo_counts_the_uses_of_a_camera_until_nobody_needs_it() -> None:
