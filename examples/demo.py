@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from typing import List
 
 USER = '''
 import rospy
@@ -56,25 +57,27 @@ def wait_for(uses: int, state: str = 'running', patience: float = 60.0) -> None:
     raise AssertionError('the camera should have %d uses by now' % uses)
 
 
-def start_user() -> 'subprocess.Popen[str]':
-    """A user of the camera, in a process of its own."""
+def start_user(users: 'List[subprocess.Popen[str]]') -> None:
+    """Start a user of the camera, in a process of its own."""
     user = subprocess.Popen([sys.executable, '-c', USER], stdout=subprocess.PIPE,
                             stderr=subprocess.DEVNULL, universal_newlines=True)
+    users.append(user)
     assert user.stdout is not None
     if not user.stdout.readline():
         raise AssertionError('a user could not use the camera')
-    return user
 
 
-def tour() -> None:
-    """What there is to see."""
+def tour(users: 'List[subprocess.Popen[str]]') -> None:
+    """What there is to see, with users that are added to a list."""
     wait_for(0)
     say('What the robot can do:')
     run('list')
     say('What a start of the camera would do:')
     run('plan', 'demo_robot/Camera')
     say('Two users use the camera. It runs, and so does the base, which it depends on.')
-    first, second = start_user(), start_user()
+    start_user(users)
+    start_user(users)
+    first, second = users
     wait_for(2)
     run('status')
     say('The first user is killed. The camera runs on, for the second.')
@@ -100,13 +103,16 @@ def main() -> int:
         with open(os.path.join(folder, 'server.log'), 'w+') as log:
             server = subprocess.Popen(['roslaunch', '-p', str(port), 'capabilities', 'demo.launch'],
                                       stdout=log, stderr=log)
+            users: 'List[subprocess.Popen[str]]' = []
             try:
-                tour()
+                tour(users)
             except AssertionError as error:
                 log.seek(0)
                 print('%s; the server says:\n%s' % (error, log.read()), file=sys.stderr)
                 return 1
             finally:
+                for user in users:
+                    user.kill()
                 server.send_signal(signal.SIGINT)
                 server.wait()
     return 0

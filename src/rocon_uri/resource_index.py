@@ -245,7 +245,7 @@ class ResourceIndex(Resources):
         return len(self._numbers)
 
     def __repr__(self) -> str:
-        return '<ResourceIndex of %d resources>' % len(self)
+        return '<ResourceIndex of %d resource%s>' % (len(self), '' if len(self) == 1 else 's')
 
     def __reduce__(self) -> Tuple[Type[ResourceIndex], Tuple[Dict[RoconURI, Any]]]:
         return type(self), (dict(self),)
