@@ -143,6 +143,26 @@ def test_who_types_the_input_is_told_that_it_is_waited_for(arguments):
     os.close(ours)
 
 
+def test_who_types_the_input_sees_no_progress_bar():
+    pytest.importorskip('tqdm', reason='tqdm is not installed')
+    ours, theirs = open_terminal()
+    with subprocess.Popen([sys.executable, SCRIPT, 'match', 'rocon:/', '--in', '-'], stdin=theirs,
+                          stdout=subprocess.PIPE, stderr=theirs) as process:
+        os.close(theirs)
+        seen = b''
+        while b'Ctrl-D ends it' not in seen:
+            seen += os.read(ours, 4096)
+        os.write(ours, b'rocon:/pr2\n\x04')
+        assert process.stdout.read() == b'rocon:/pr2\n' and process.wait() == 0
+    try:
+        while True:
+            seen += os.read(ours, 4096)
+    except OSError:     # Linux has no end of file here, but this
+        pass
+    os.close(ours)
+    assert b'B/s' not in seen
+
+
 # -- without what it needs -------------------------------------------------------------------------
 
 @pytest.mark.parametrize('module, package', [('catkin_pkg', 'python3-catkin-pkg'),

@@ -34,7 +34,8 @@ def read_lines(path: str) -> Iterator[List[str]]:
         _say_what_is_waited_for()
     with open(0 if path == '-' else path, 'rb', closefd=path != '-') as file:
         status = os.fstat(file.fileno())
-        with progress(status.st_size if stat.S_ISREG(status.st_mode) else None) as bar:
+        is_known = stat.S_ISREG(status.st_mode) or file.isatty()     # who types needs no bar
+        with progress(status.st_size if is_known else None) as bar:
             encoding, read, rest = 'utf-8-sig', True, b''
             while read:
                 octets = file.read1(_BATCH)
