@@ -315,6 +315,23 @@ def test_no_label_touches_the_next(fleet: Any) -> None:
                in zip(places, places[1:]) if top == next_top)
 
 
+def test_cells_and_reasons_are_seen_on_a_phone(fleet: Any) -> None:
+    fleet.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
+        'width': 400, 'height': 800, 'deviceScaleFactor': 1, 'mobile': False})
+    try:
+        fleet.refresh()
+        right, top, bottom = fleet.execute_script('''
+            var cell = document.querySelectorAll('#grid tbody tr[data-i] td')[3];
+            cell.click();
+            return [cell.getBoundingClientRect().right,
+                    document.getElementById('why').getBoundingClientRect().top,
+                    document.getElementById('scroll').getBoundingClientRect().bottom]''')
+        assert right < 400 and top >= bottom
+        assert 'rocon:/waiterbot/waiter_1/indigo/trusty' in text_of(fleet, '#why')
+    finally:
+        fleet.execute_cdp_cmd('Emulation.clearDeviceMetricsOverride', {})
+
+
 def test_the_fleet_is_filtered_by_field_and_by_text(fleet: Any) -> None:
     fleet.find_element('name', 'field0').send_keys('turtlebot3')
     assert text_of(fleet, '#count').startswith('%d of 44 resources' % sum(

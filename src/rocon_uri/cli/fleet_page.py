@@ -73,8 +73,13 @@ aside { width: 30em; max-width: 45%; overflow: auto; padding: 8px 12px;
 aside h2 { font-size: 15px; margin: 0 0 4px; }
 aside h2, aside p, aside li { overflow-wrap: anywhere; }
 aside td, aside th { text-align: left; padding: 1px 8px 1px 0; vertical-align: top; }
-aside td:nth-child(n+3) { overflow-wrap: anywhere; }
+aside td:nth-child(n+3) { overflow-wrap: break-word; }
 .no { color: var(--odd); }
+@media screen and (max-width: 700px) { main { flex-direction: column; }
+  aside { width: auto; max-width: none; max-height: 45%; border-left: 0;
+    border-top: 1px solid var(--line); }
+  input, select { width: 8em; } form { gap: 4px 14px; }
+  #grid tbody th { max-width: 55vw; overflow: hidden; text-overflow: ellipsis; font-size: 11px; } }
 @media print { body, main, #scroll { display: block; height: auto; overflow: visible; }
   form, aside { display: none; } #grid th { position: static !important; } }
 </style>
@@ -106,11 +111,11 @@ Enter, to see why.</p></aside>
     if (parent) { parent.appendChild(made); }
     return made;
   }
-  function heading(text) {      // a line of which ends before a slash
-    var made = make('h2', why);
-    text.split('/').forEach(function (part, i) {
+  function makeLines(tag, parent, text) {       // which end before a slash or a bar
+    var made = make(tag, parent);
+    text.split(/(?=[/|])/).forEach(function (part, i) {
       if (i) { make('wbr', made); }
-      made.appendChild(document.createTextNode((i ? '/' : '') + part));
+      made.appendChild(document.createTextNode(part));
     });
   }
   function outcome(r, c) { return outcomes[cells[r][c]]; }
@@ -217,9 +222,9 @@ Enter, to see why.</p></aside>
   function explain(r, c) {
     var row = rows[r], column = columns[c], result = outcome(r, c);
     why.textContent = '';
-    heading(row.text);
-    heading(column.label);
-    if (column.about) { make('p', why, column.about); }
+    makeLines('h2', why, row.text);
+    makeLines('h2', why, column.label);
+    if (column.about) { makeLines('p', why, column.about); }
     make('p', why, result.mark + '  ' + report.meanings[result.mark]);
     if (result.fields) {
       var table = make('table', why), line = make('tr', table);
@@ -231,7 +236,7 @@ Enter, to see why.</p></aside>
         line = make('tr', table);
         if (fits !== 'x') { line.className = 'no'; }
         [fits, field, column.fields[f], row.fields[f]].forEach(function (text) {
-          make('td', line, text);
+          makeLines('td', line, text);
         });
       });
     }
