@@ -111,6 +111,13 @@ def test_no_file_is_executable_that_rosrun_would_find() -> None:
         assert executable == []
 
 
+def test_an_sdist_has_every_folder() -> None:
+    grafted = set(re.findall(r'^graft (\S+)$', (ROOT / 'MANIFEST.in').read_text(), re.MULTILINE))
+    folders = {path.name for path in ROOT.iterdir() if path.is_dir() and path.name not in
+               ('build', 'dist', 'src', 'mine') and not path.name.startswith(('.', '__'))}
+    assert folders <= grafted and {'.ci', '.github', 'msg', 'srv'} <= grafted
+
+
 def test_every_module_has_a_level() -> None:
     names = {module.split('.')[1] for module in MODULES
              if module.startswith('rocon_uri.') and module not in EARLIER_PATHS}
