@@ -61,8 +61,8 @@ class Master:
         self.uri = 'http://127.0.0.1:%d' % self.port
         self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_IP='127.0.0.1',
                                 ROS_HOME=str(folder / 'ros_home'), ROS_LOG_DIR=str(folder / 'log'))
-        self.environment.pop('ROS_HOSTNAME', None)
-        self.environment.pop('ROS_NAMESPACE', None)
+        for name in 'ROS_HOSTNAME', 'ROS_NAMESPACE', 'PYTHONUNBUFFERED':
+            self.environment.pop(name, None)
         self.environment['ROS_PACKAGE_PATH'] = ':'.join(
             [str(package) for package in packages]
             + [os.environ.get('ROS_PACKAGE_PATH') or '/usr/share'])

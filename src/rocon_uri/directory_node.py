@@ -7,6 +7,7 @@ only lies in the handshake. Who may talk to the master may take any name, as eve
 """
 from __future__ import annotations
 
+import io
 import os
 import sys
 import threading
@@ -226,6 +227,8 @@ def main() -> int:
         print('resource_directory: argument %s is not expected: it takes remappings only'
               % quoted(arguments[0]), file=sys.stderr)
         return 2
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(line_buffering=True)     # in a file, too, a line is there at once
     rospy.init_node('resource_directory')
     try:
         node = DirectoryNode()
