@@ -6,13 +6,13 @@ import io
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Tuple
 
 import pytest
+from browser import open_browser
 from made_packages import make_package
 from sources import ROOT, SOURCE
 from terminal import open_terminal
@@ -246,20 +246,8 @@ def test_few_apps_have_their_names_above_their_columns(tmp_path: Path) -> None:
 @pytest.fixture(scope='module')
 def browser() -> Iterator[Any]:
     """Headless Chromium."""
-    webdriver = pytest.importorskip('selenium.webdriver', reason='selenium is not installed')
-    programs = shutil.which('chromium'), shutil.which('chromedriver')
-    if None in programs:
-        pytest.skip('chromium and its driver are not installed')
-    from selenium.webdriver.chrome.service import Service
-    options = webdriver.ChromeOptions()
-    for argument in ('--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage',
-                     '--window-size=1280,800'):
-        options.add_argument(argument)
-    options.binary_location = programs[0]
-    options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
-    driver = webdriver.Chrome(service=Service(programs[1]), options=options)
-    yield driver
-    driver.quit()
+    with open_browser('--disable-gpu', '--window-size=1280,800', log=True) as driver:
+        yield driver
 
 
 @pytest.fixture

@@ -1,13 +1,13 @@
 """The pages of the documentation as a browser shows them: nothing is cut off."""
 from __future__ import annotations
 
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any, Iterator, List
 
 import pytest
+from browser import open_browser
 from sources import ROOT
 
 WIDE, NARROW = 1280, 400    # pixels; a window is never narrower than 500, so that is a frame
@@ -43,19 +43,8 @@ def pages(tmp_path_factory: Any) -> Path:
 @pytest.fixture(scope='module')
 def browser() -> Iterator[Any]:
     """A Chromium without a window."""
-    webdriver = pytest.importorskip('selenium.webdriver', reason='selenium is not installed')
-    programs = [shutil.which(name) for name in ('chromium', 'chromedriver')]
-    if None in programs:
-        pytest.skip('Chromium and its driver are not installed')
-    options = webdriver.ChromeOptions()
-    options.binary_location = programs[0]
-    for argument in ('--headless=new', '--no-sandbox', '--disable-dev-shm-usage',
-                     '--allow-file-access-from-files', '--window-size=%d,1000' % WIDE):
-        options.add_argument(argument)
-    from selenium.webdriver.chrome.service import Service
-    driver = webdriver.Chrome(service=Service(programs[1]), options=options)
-    yield driver
-    driver.quit()
+    with open_browser('--allow-file-access-from-files', '--window-size=%d,1000' % WIDE) as driver:
+        yield driver
 
 
 def overflowing(browser: Any, page: Path, width: int) -> List[str]:
