@@ -1,4 +1,4 @@
-"""Chromium without a window, for the tests of pages."""
+"""Chromium without a window, for the tests of pages and for the pictures of the documentation."""
 from __future__ import annotations
 
 import os

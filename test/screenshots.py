@@ -86,18 +86,6 @@ def faulty_workspace(folder: Path) -> None:
         path.write_text(text.replace(right, wrong, 1), encoding='utf-8')
 
 
-def open_browser() -> Any:
-    """Headless Chromium."""
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-    options = webdriver.ChromeOptions()
-    options.binary_location = shutil.which('chromium') or 'chromium'
-    for argument in ('--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage',
-                     '--disable-background-networking', '--hide-scrollbars'):
-        options.add_argument(argument)
-    return webdriver.Chrome(service=Service(shutil.which('chromedriver')), options=options)
-
-
 def resize(browser: Any, width: int, height: int) -> None:
     """Make a page so many pixels wide and high."""
     browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
@@ -174,14 +162,12 @@ def finding(browser: Any, folder: Path, path: Path) -> None:
 
 def main(target: Path) -> None:
     """Write all pictures to a folder."""
+    from browser import open_browser        # needs pytest and selenium, as only this does
     cafe(target / 'cafe.svg')
-    browser = open_browser()
-    try:
-        with tempfile.TemporaryDirectory() as folder:
-            fleet_report(browser, Path(folder), target / 'fleet_report.png')
-            finding(browser, Path(folder), target / 'finding.png')
-    finally:
-        browser.quit()
+    with open_browser('--disable-gpu', '--disable-background-networking', '--hide-scrollbars') \
+            as browser, tempfile.TemporaryDirectory() as folder:
+        fleet_report(browser, Path(folder), target / 'fleet_report.png')
+        finding(browser, Path(folder), target / 'finding.png')
 
 
 if __name__ == '__main__':

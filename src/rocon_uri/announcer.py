@@ -9,7 +9,7 @@ import argparse
 import sys
 import threading
 import time
-from typing import List, Optional, Union
+from typing import Optional, Union
 
 import rospy
 
@@ -142,7 +142,7 @@ def main() -> int:
                         help='until it is gone if it falls silent, at least twice the period '
                         '(default: 3 periods)')
     parser.add_argument('--key', default='', help='which of the robots of the node it is')
-    arguments = parser.parse_args(_own_arguments())
+    arguments = parser.parse_args(rospy.myargv(sys.argv)[1:])
     try:
         if arguments.uri is not None:
             _warn_of_unregistered(arguments.uri)
@@ -153,11 +153,6 @@ def main() -> int:
         return 2
     rospy.spin()
     return 0
-
-
-def _own_arguments() -> List[str]:
-    """The arguments without ROS's remappings."""
-    return list(rospy.myargv(sys.argv)[1:])
 
 
 def _warn_of_unregistered(uri: str) -> None:

@@ -1,7 +1,6 @@
 """Checks ``.app`` files of app_manager that can be read, and the files that they name."""
 from __future__ import annotations
 
-import os
 from typing import List
 
 from rocon_uri.apps.app_file import (
@@ -64,9 +63,7 @@ def _check_launch(app: AppFile, file: CheckedFile, workspace: Workspace) -> None
     found = app.resources.get('launch')
     fault = found and found.path and launch_file_fault(found, workspace.launch_files)
     if fault and fault.line is not None:
-        file.findings.append(Finding(file_name=os.path.normpath(fault.path), line=fault.line,
-                                     column=fault.column, severity=ERROR,
-                                     problem='launch file %s' % fault.problem, id=fault.kind))
+        file.add_in_launch_file(fault)
     elif fault:
         file.error(str(fault), app.position('launch'), fault.kind)
 

@@ -9,7 +9,7 @@ from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.misplaced_name import misplaced_name
 from rocon_uri.sources.checked import CheckedMapping, Reading
-from rocon_uri.sources.launch_file import MISSING, LaunchFiles
+from rocon_uri.sources.launch_file import MISSING, LaunchFault, LaunchFiles
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.resources import not_a_path
 from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name
@@ -138,13 +138,17 @@ class CheckedFile(Reading):
         """
         fault = launch_files.look_at(name, os.path.dirname(os.path.abspath(self.path))).fault
         if fault is not None and fault.line is not None:
-            self.findings.append(Finding(file_name=os.path.normpath(fault.path), line=fault.line,
-                                         column=fault.column, severity=ERROR,
-                                         problem='launch file %s' % fault.problem, id=fault.kind))
+            self.add_in_launch_file(fault)
         elif fault is not None:
             is_in_package = fault.kind == MISSING and os.path.isfile(
                 os.path.join(self.package_folder, name))
             self.add(if_in_package if is_in_package else ERROR, str(fault), place, fault.kind)
+
+    def add_in_launch_file(self, fault: LaunchFault) -> None:
+        """Note what is wrong in a launch file, at its place there."""
+        self.findings.append(Finding(file_name=os.path.normpath(fault.path), line=fault.line,
+                                     column=fault.column, severity=ERROR,
+                                     problem='launch file %s' % fault.problem, id=fault.kind))
 
     def check_exists(self, name: str, what: str, known: NamesByPart, place: Place,
                      fault_id: str) -> bool:
