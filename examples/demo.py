@@ -40,8 +40,8 @@ def run(*verb: str) -> None:
     subprocess.call(['rosrun', 'capabilities', 'capabilities', *verb])
 
 
-def wait_for(uses: int, state: str = 'running', patience: float = 60.0) -> None:
-    """Wait until the server is there and the camera has so many uses, or is not there for 0."""
+def wait_for(uses: int, patience: float = 60.0) -> None:
+    """Wait until the server is there and the camera has so many uses; for 0, nothing runs."""
     deadline = time.monotonic() + patience
     while time.monotonic() < deadline:
         done = subprocess.run(
@@ -49,9 +49,9 @@ def wait_for(uses: int, state: str = 'running', patience: float = 60.0) -> None:
             stderr=subprocess.DEVNULL, universal_newlines=True)
         answer = json.loads(done.stdout)
         if 'capabilities' in answer:        # the server is there
-            found = [(one['uses'], one['state']) for one in answer['capabilities']
-                     if one['capability'] == 'demo_robot/Camera']
-            if found == ([(uses, state)] if uses else []):
+            found = {one['capability']: (one['uses'], one['state'])
+                     for one in answer['capabilities']}
+            if found.get('demo_robot/Camera') == (uses, 'running') if uses else not found:
                 return
         time.sleep(0.2)
     raise AssertionError('the camera should have %d uses by now' % uses)
