@@ -398,9 +398,9 @@ void test_reload() {
   check("what is new can be started", start("late/Late", "late/late").ok && comes("late/Late"));
   down();
   std::filesystem::rename(present, absent);
-  const bool answered = reload();
+  const auto reply = call<std_srvs::Empty>("reload_capabilities");
   const auto after = interfaces();
-  check("reload_capabilities forgets it", answered && after == before, (answered ? "" : "no answer, ") + text(after));
+  check("reload_capabilities forgets it", reply.ok && after == before, reply.error + text(after));
 }
 
 void test_nodelet_manager() {
