@@ -20,7 +20,7 @@ LOW, HIGH = -7, 1       # powers of ten of a second
 STYLE = '''
 text { font: 14px "DejaVu Sans", Verdana, sans-serif; fill: #1f2328 }
 .page { fill: #ffffff } .head { font-weight: bold } .faint { fill: #59636e }
-.axis { stroke: #d1d9e0 } .end { text-anchor: end } .middle { text-anchor: middle }
+.axis { stroke: #d1d9e0 } .end { text-anchor: end } .unit { text-anchor: middle; font-size: 12px }
 .ours { fill: #0969da } .theirs { fill: #bc4c00 } .line { stroke: #8c959f; stroke-width: 2 }
 @media (prefers-color-scheme: dark) {
 text { fill: #e6edf3 } .page { fill: #0d1117 } .faint { fill: #9198a1 } .axis { stroke: #30363d }
@@ -74,7 +74,7 @@ def section(parts, y, title, legend, last):
         parts.append('<circle class="%s" cx="%d" cy="%d" r="5"/>' % (style, x, y - 5))
         text(parts, x + 9, y, name, 'faint')
     for power in range(LOW, HIGH + 1):
-        text(parts, position(10.0 ** power), y, with_unit(10.0 ** power), 'faint middle')
+        text(parts, position(10.0 ** power), y, with_unit(10.0 ** power), 'faint unit')
     text(parts, WIDTH - 12, y, last, 'faint end')
     return y + ROW
 
