@@ -7,6 +7,7 @@ distinct pattern is compared once.
 """
 from __future__ import annotations
 
+from bisect import bisect_left
 from functools import partial
 from itertools import chain, compress
 from operator import itemgetter
@@ -208,6 +209,8 @@ class _Order:
 
     def _place(self, key: str) -> int:
         """As `bisect.bisect_left`, which takes a key from Python 3.10 on only."""
+        if self._key is str:    # of whole names, so that none is needed: a fifth of the time
+            return bisect_left(self._names, key)
         low, high = 0, len(self._names)
         while low < high:
             middle = (low + high) // 2
