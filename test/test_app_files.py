@@ -289,5 +289,5 @@ def test_a_broken_app_is_shown_where_it_is_asked_for(apps: Run, tmp_path: Path) 
     status, _, err = apps('ours/dance', *given)
     assert status == 2 and '%s:1:1: the app has no interface' % (made / 'apps/dance.app') in err
     status, _, err = apps(*given)
-    assert (status, err) == (1, '1 file has faults: rocon_uri specs check --package-path %s\n'
+    assert (status, err) == (1, '1 file has faults: rocon_uri specs check %s\n'
                              % tmp_path)

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -157,7 +158,27 @@ def test_files_with_faults_are_counted_and_spoil_no_answer(apps, tmp_path):
     dance(tmp_path)
     status, lines, err = apps('--robot', 'rocon:/kobuki/bob', '--package-path', tmp_path)
     assert (status, lines[1:]) == (0, ['  ours/dance'])
-    assert err == '3 files have faults: rocon_uri specs check --package-path %s\n' % tmp_path
+    assert err == '3 files have faults: rocon_uri specs check %s\n' % tmp_path
+
+
+@pytest.mark.parametrize('by', ['argument', 'environment'])
+def test_the_command_that_is_named_shows_the_faults_wherever_it_runs(
+        apps, tmp_path, monkeypatch, capsys, by):
+    dance(tmp_path / "a robot's", 'launch: 7', 'bad')
+    (tmp_path / 'elsewhere').mkdir()
+    monkeypatch.chdir(tmp_path / 'elsewhere')
+    path, given = "%s:../a robot's" % EXAMPLES, []
+    if by == 'argument':
+        given = ['--package-path', path]
+    else:
+        monkeypatch.setenv('ROS_PACKAGE_PATH', path)
+    _, _, err = apps('--robot', ROBOT, *given)
+    counted, _, command = err.partition(': ')
+    assert counted == '1 file has faults'
+    assert main(shlex.split(command)[1:]) == 1
+    assert capsys.readouterr() == (
+        "%s/a robot's/bad/dance.rapp:1:9: error: launch is 7, expected text [wrong-value]\n"
+        % tmp_path, 'rocon_uri: 1 error and no warnings in 1 package\n')
 
 
 def test_the_command_itself_says_nothing_twice_and_knows_all_rules(tmp_path):
@@ -170,7 +191,8 @@ def test_the_command_itself_says_nothing_twice_and_knows_all_rules(tmp_path):
          '--robot', 'rocon:/our_robot', '--package-path', path],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
         env=dict(os.environ, ROCON_URI_RULES=str(tmp_path / 'rules.yaml')))
-    assert done.stderr == '1 file has faults: rocon_uri specs check --package-path %s\n' % path
+    assert done.stderr == '1 file has faults: rocon_uri specs check %s --package-path %s\n' % (
+        tmp_path, path)
     assert done.returncode == 0 and 'cafe_rapps/radio' in done.stdout
 
 

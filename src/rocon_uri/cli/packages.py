@@ -137,10 +137,14 @@ def mention_faults(args: argparse.Namespace, report: PackageReport, exported: Wo
         else:
             others[file] = fault
     if others:
-        path = '' if args.package_path is None else ' --package-path ' + shlex.quote(
-            os.pathsep.join(package_path(args)))
-        say('%d %s: rocon_uri specs check%s' % (
-            len(others), 'file has faults' if len(others) == 1 else 'files have faults', path))
+        folders = package_path(args)
+        check = ['specs', 'check', *(folder for folder in folders if any(
+            file.startswith(os.path.join(os.path.abspath(folder), '')) for file in others))]
+        if args.package_path is not None and len(folders) > 1:
+            check += ['--package-path', os.pathsep.join(folders)]
+        say('%d %s: rocon_uri %s' % (
+            len(others), 'file has faults' if len(others) == 1 else 'files have faults',
+            ' '.join(map(shlex.quote, check))))
 
 
 def _may_define(name: str, file: str, exported: Workspace) -> bool:
