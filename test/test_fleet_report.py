@@ -132,6 +132,11 @@ def test_bad_robots_of_a_file_are_reported_with_their_lines(tmp_path: Path, caps
     assert 'No such file or directory' in capsys.readouterr().err
 
 
+def test_robots_of_a_file_without_a_page_are_refused(capsys: Any) -> None:
+    assert main(['apps', '--robots-in', FLEET, '--package-path', str(EXAMPLES)]) == 2
+    assert capsys.readouterr() == ('', 'rocon_uri apps: error: --robots-in needs --html\n')
+
+
 @pytest.mark.parametrize('verb', ['match', 'apps'])
 def test_a_page_that_cannot_be_written_is_an_error(verb: str, capsys: Any) -> None:
     given = {'match': ['--matrix', 'rocon:/pr2', '--in', FLEET],

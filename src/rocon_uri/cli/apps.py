@@ -45,6 +45,7 @@ import argparse
 
 from rocon_uri.cli.completion import app_names, offer, uris
 from rocon_uri.cli.display import fields_as_json, painter, print_json
+from rocon_uri.cli.given import say
 from rocon_uri.cli.judged import add_defaults, named_apps, read_defaults, read_robot
 from rocon_uri.cli.packages import (
     add_package_path, mention_faults, printable, shortened, shown_path, workspace)
@@ -100,6 +101,9 @@ def _reason_id(text: str) -> str:
 
 
 def main(args: argparse.Namespace) -> int:
+    if args.robots_in is not None and args.html is None:
+        say('rocon_uri apps: error: --robots-in needs --html')
+        return 2
     report, exported = workspace(args)
     apps = named_apps(args.names, exported, report) if args.names else list(exported.apps())
     mention_faults(args, report, exported, _asked_for(args.names, apps, exported))
