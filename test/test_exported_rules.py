@@ -217,13 +217,13 @@ def test_a_fault_costs_only_the_file_that_it_is_in(workspace, monkeypatch, caplo
         (str(workspace / 'nameless' / 'package.xml'), 'exactly one "name" tag'),
         (str(workspace / 'strange' / 'package.xml'), 'encoding'),
         ('%s:4:5: ' % (ours / 'star.yaml'), "'*' is not a ROS base name"),
-        (str(ours / 'missing.yaml'), 'No such file'),
+        (str(ours / 'missing.yaml'), 'missing.yaml: cannot be read: No such file or directory'),
         ('%s:2:29: ' % (ours / 'slash.yaml'), "'a/b' is not a ROS base name"),
         ('%s:2:1: ' % (ours / 'syntax.yaml'), ''),
         ('%s:4:5: ' % (ours / 'twice.yaml'), "'bender' cannot be in 'phone', since it"),
-        (str(workspace / 'no_such_file'), 'No such file'),
+        (str(workspace / 'no_such_file'), 'file: cannot be read: No such file or directory'),
         ('%s:4:5: ' % (ours / 'star.yaml'), "'*' is not a ROS base name"),
-        (str(workspace), ''),
+        (str(workspace), 'src: cannot be read: Is a directory'),
     ]
     reported = warnings(caplog)
     assert len(reported) == len(expected)

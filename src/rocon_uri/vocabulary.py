@@ -201,13 +201,16 @@ def with_exported_rules(vocabulary: Vocabulary) -> Vocabulary:
     A package or a file with a fault is logged, with the line, and adds nothing.
     """
     from rocon_uri.exported_rules import rules_paths_of_machine
+    from rocon_uri.sources.located import NOWHERE, located
     paths, package_errors = rules_paths_of_machine()
     vocabulary, faults = _with_rules_files(vocabulary, paths)
     for text, errors in ('rules of a package left out: %s', package_errors), (
             'rules left out: %s', faults):
         for error in errors:
             import logging      # costs more than the rest of the package, and few need it
-            logging.getLogger('rocon_uri').warning(text, error)
+            logging.getLogger('rocon_uri').warning(text, located(
+                'cannot be read: %s' % error.strerror, error.filename, *NOWHERE)
+                if isinstance(error, OSError) else error)
     return vocabulary
 
 
