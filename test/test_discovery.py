@@ -277,6 +277,7 @@ def test_of_many_names_those_that_share_a_part_are_looked_at() -> None:
     index.add_semantic_interface(SemanticCapabilityInterface('Front', 'ours_7/Laser', 1), 'f', 'my')
     assert sorted(index.names_like('ours_7/Lasr', 'interfaces')) == ['ours_7/Base', 'ours_7/Laser']
     assert len(index.names_like('our_7/Laser', 'interfaces')) == 300
+    assert len(index.names_like('Laser', 'interfaces')) == 300
     assert index.names_like('my/Fronnt', 'capabilities') == ['my/Front']
     assert index.names_like('my/Fronnt', 'interfaces') == []
     assert index.names_like('my/front', 'providers') == []

@@ -162,6 +162,7 @@ def test_suggestions_are_looked_for_when_they_are_asked_for():
     ('kobuki', [], []),
     ('k' * 65, ['k' * 65], []),
     ('k' * 64, ['k' * 64], ['k' * 64]),
+    ('Bell', ['bellboy/Base', 'bellboy/Bell', 'bellboy/DoorBell'], ['bellboy/Bell']),
 ])
 def test_near_misses(text, candidates, expected):
     assert near_misses(text, iter(candidates)) == expected

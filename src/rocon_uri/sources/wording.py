@@ -47,13 +47,16 @@ def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
 
     >>> near_misses('turtelbot2', ['kobuki', 'turtlebot', 'turtlebot2'])
     ['turtlebot2', 'turtlebot']
+    >>> near_misses('Bell', ['bellboy/Base', 'bellboy/Bell'])
+    ['bellboy/Bell']
     """
     if len(text) > _NEAR_LENGTH:
         return []
     import difflib      # here, since only an error that is shown needs it
     by_lower = {candidate.lower(): candidate for candidate in sorted(candidates)}
     found = difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.7)
-    return [by_lower[name] for name in found]
+    whole = [name for name in by_lower if name.endswith('/' + text.lower())]    # of a package
+    return [by_lower[name] for name in found or whole[:3]]
 
 
 class NamesByPart:
@@ -98,7 +101,7 @@ class NamesByPart:
 
 
 def _parts(name: str) -> List[str]:
-    package, _, own_name = name.partition('/')
+    package, _, own_name = name.rpartition('/')
     return [package + '/', '/' + own_name]
 
 
