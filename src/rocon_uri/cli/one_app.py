@@ -133,4 +133,4 @@ def _show_capability(needed: RequiredCapability, plan: StartPlan, exported: Work
             for seen in seen_names(needed, plan, exported)]
     print_rows(printable(heading), rows)
     if not rows:
-        print(printable('%s has no names that are known' % needed.name))
+        print(printable('%s: no topics, services, actions or parameters are known' % needed.name))
