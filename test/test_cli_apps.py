@@ -164,6 +164,7 @@ def test_files_with_faults_are_counted_and_spoil_no_answer(apps, tmp_path):
 @pytest.mark.parametrize('by', ['argument', 'environment'])
 def test_the_command_that_is_named_shows_the_faults_wherever_it_runs(
         apps, tmp_path, monkeypatch, capsys, by):
+    pytest.importorskip('catkin_pkg', reason='catkin_pkg is not installed')
     dance(tmp_path / "a robot's", 'launch: 7', 'bad')
     (tmp_path / 'elsewhere').mkdir()
     monkeypatch.chdir(tmp_path / 'elsewhere')
