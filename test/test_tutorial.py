@@ -53,9 +53,10 @@ def test_each_step_does_what_the_page_shows(tmp_path):
 
 def test_the_packages_that_were_on_the_path_stay_there(tmp_path):
     """Those of ROS, which the last step needs."""
-    [command] = re.findall(r'^   \$ (export ROS_PACKAGE_PATH=.*)$', PAGE.read_text(encoding='utf-8'),
-                           re.MULTILINE)
+    [command] = re.findall(r'^   \$ (export ROS_PACKAGE_PATH=.*)$',
+                           PAGE.read_text(encoding='utf-8'), re.MULTILINE)
     done = subprocess.run(
         ['bash', '-c', command + '; echo $ROS_PACKAGE_PATH'], cwd=str(tmp_path),
-        stdout=subprocess.PIPE, env=dict(os.environ, ROS_PACKAGE_PATH='/opt/ros/noetic/share'), universal_newlines=True)
+        env=dict(os.environ, ROS_PACKAGE_PATH='/opt/ros/noetic/share'),
+        stdout=subprocess.PIPE, universal_newlines=True)
     assert done.stdout == '%s/src:/opt/ros/noetic/share\n' % tmp_path
