@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import shutil
 from pathlib import Path
-from typing import List
+from typing import Iterator, List
 
 import pytest
 from capabilities.discovery import package_index_from_package_path
@@ -76,20 +76,36 @@ def test_a_manifest_is_utf_8_whatever_it_says(tmp_path: Path, encoding: str) -> 
         str(tmp_path / '\xe9')]
 
 
-def test_a_folder_below_more_folders_than_python_recurses(
-        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    make_package(tmp_path, 'ours')
+@pytest.fixture
+def deep(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder with more folders below one another than Python recurses, and a file in the last."""
     monkeypatch.chdir(tmp_path)
     for _ in range(1100):
         os.mkdir('d')
         os.chdir('d')
+    Path('dance.app').write_text('[')
     monkeypatch.chdir(tmp_path)
-    assert list(find_packages([str(tmp_path)])) == ['ours']
+    yield tmp_path
     for _ in range(1100):   # pytest removes it by recursion
         os.rename('d', 'e')
         if os.path.isdir('e/d'):
             os.rename('e/d', 'd')
-        os.rmdir('e')
+            os.rmdir('e')
+
+
+def test_packages_are_found_beside_folders_in_folders(deep: Path) -> None:
+    make_package(deep, 'ours')
+    assert list(find_packages([str(deep)])) == ['ours']
+
+
+def test_a_package_may_have_folders_in_folders(deep: Path) -> None:
+    make_package(deep, 'our', installed_installed='apps: [app: ours/dance]')
+    os.rename('our/package.xml', 'package.xml')
+    manifest = deep / 'package.xml'
+    manifest.write_text(manifest.read_text().replace('>our<', '>ours<').replace(
+        '<export>', '<depend>app_manager</depend><export><app_manager app_dir="our"/>'))
+    assert [(finding.id, finding.file_name.count('d/')) for finding in check_packages([str(deep)])
+            ] == [('not-yaml', 1100)]
 
 
 def test_the_folder_with_nosubdirs_counts_and_those_below_do_not(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ import os
 from typing import List
 
 from rocon_uri.sources.packages import MANIFEST
+from rocon_uri.sources.walk import walk
 
 __all__ = ['package_files']
 
@@ -20,10 +21,9 @@ def package_files(folder: str) -> List[str]:
     ['examples/workspace/cafe_cart/rules/robots.yaml']
     """
     paths: List[str] = []
-    for below, folders, files in os.walk(folder):
+    for below, folders, files in walk(folder):
         if below != folder and MANIFEST in files:
             folders.clear()
             continue
-        folders[:] = sorted(name for name in folders if not name.startswith('.'))
-        paths += [os.path.join(below, name) for name in sorted(files)]
+        paths += [os.path.join(below, name) for name in files]
     return paths

@@ -21,6 +21,7 @@ from rocon_uri.sources.located import with_id
 from rocon_uri.sources.manifest import (
     MANIFEST, Element, Export, Package, PackageError, as_package, manifest_elements,
     package_from_manifest, read_manifest)
+from rocon_uri.sources.walk import leads_to_folder
 from rocon_uri.sources.wording import quoted, quoted_path
 
 __all__ = ['Element', 'Export', 'MANIFEST', 'Package', 'PackageError', 'as_package',
@@ -75,7 +76,7 @@ def package_folders(path: str, errors: Optional[List[PackageError]] = None) -> I
                 continue
             visited.add((status.st_dev, status.st_ino))
             with os.scandir(folder) as entries:
-                is_folder = {entry.name: _is_folder(entry) for entry in entries}
+                is_folder = {entry.name: leads_to_folder(entry) for entry in entries}
         except (FileNotFoundError, NotADirectoryError, ValueError):     # or a NUL in it
             continue
         except OSError as error:
@@ -92,10 +93,3 @@ def package_folders(path: str, errors: Optional[List[PackageError]] = None) -> I
             continue
         waiting += [os.path.join(folder, name) for name in sorted(is_folder, reverse=True)
                     if is_folder[name] and not name.startswith('.')]
-
-
-def _is_folder(entry: os.DirEntry[str]) -> bool:
-    try:
-        return entry.is_dir()
-    except OSError:     # a symbolic link to itself
-        return False

@@ -19,6 +19,7 @@ from typing import Callable, Collection, Dict, Iterator, List, Mapping, NamedTup
 
 from rocon_uri.sources.packages import (
     MANIFEST, Package, PackageError, package_from_manifest)
+from rocon_uri.sources.walk import walk
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 __all__ = ['AMBIGUOUS', 'MISSING', 'NotAPath', 'Resource', 'Resources', 'not_a_path']
@@ -221,7 +222,7 @@ def _files_by_name(folder: str) -> Dict[str, List[str]]:
 def _files_below(folder: str) -> Iterator[str]:
     """All files, but for hidden folders; links are followed, and a folder is visited once."""
     visited = set()
-    for path, folders, files in os.walk(folder, followlinks=True):
+    for path, folders, files in walk(folder, follow_links=True):
         here: Tuple[int, int] = (0, 0)
         try:
             status = os.stat(path)
@@ -229,11 +230,10 @@ def _files_below(folder: str) -> Iterator[str]:
         except OSError:     # it has gone
             pass
         if here in visited:
-            folders[:] = []
+            folders.clear()
             continue
         visited.add(here)
-        folders[:] = sorted(name for name in folders if not name.startswith('.'))
-        yield from (os.path.join(path, name) for name in sorted(files))
+        yield from (os.path.join(path, name) for name in files)
 
 
 def _is_executable(path: str) -> bool:
