@@ -318,7 +318,10 @@ class TestNothingIsKept:
             index.discard(uri)
         held = list(self.held_by(index))
         assert sum(isinstance(thing, self.Payload) for thing in held) == len(kept)
-        assert {thing.name_text for thing in held if isinstance(thing, RoconURI)} <= {'*', 'carol'}
+        uris = {thing for thing in held if isinstance(thing, RoconURI)}
+        assert {uri.name_text for uri in uris} <= {'*', 'carol'}
+        assert {uri.replace(name='*') for uri in uris} == {
+            parse(uri).replace(name='*') for uri in kept}
         assert not [thing for thing in held if isinstance(thing, NamePattern)]
         assert {thing for thing in held if isinstance(thing, str)} - set(vars(index)) \
             <= {'', 'carol', 'lorac'}
