@@ -376,6 +376,28 @@ def test_launch_files_and_cycles_are_in_the_graph(graph, tmp_path):
                      'c': ('fails', 'launch-missing'), 'dance': ('fails', 'launch-missing')}
 
 
+def test_an_interface_runs_beside_a_semantic_one_that_redefines_it(graph, tmp_path):
+    interface = '{name: %s, spec_version: 1, spec_type: interface, interface: }'
+    provider = '{name: %s, spec_version: 1, spec_type: provider, implements: ours/%s, %s}'
+    make_package(
+        tmp_path, 'ours',
+        [('capability_interface', 'View.yaml'), ('capability_interface', 'Camera.yaml'),
+         ('semantic_capability_interface', 'Front.yaml'), ('capability_provider', 'view.yaml'),
+         ('capability_provider', 'camera.yaml'), ('capability_provider', 'front.yaml'),
+         ('rocon_app', 'look.rapp')],
+        View_yaml=interface % 'View', Camera_yaml=interface % 'Camera',
+        Front_yaml='{name: Front, spec_version: 1, spec_type: semantic_interface, '
+                   'redefines: ours/Camera}',
+        view_yaml=provider % ('view', 'View', 'depends_on: {ours/Camera: {provider: ours/front}}'),
+        camera_yaml=provider % ('camera', 'Camera', ''),
+        front_yaml=provider % ('front', 'Front', ''), look_launch='<launch/>',
+        look_rapp='{compatibility: "rocon:/", launch: look.launch, '
+                  'required_capabilities: [{name: ours/View}, {name: ours/Camera}]}')
+    found = states(graph('--robot', 'rocon:/pr2/bob', package_path=tmp_path)[0])
+    assert found == dict.fromkeys(['look', 'View', 'view', 'Camera', 'camera', 'Front', 'front'],
+                                  ('runs', ''))
+
+
 def test_the_picture_reads_from_the_app_to_the_provider_and_has_frames_and_a_legend(specs):
     _, out, _ = specs('graph', '--package-path', EXAMPLES)
     assert '"cafe_capabilities/Speech" -> "cafe_capabilities/espeak" [arrowhead=empty' in out

@@ -211,6 +211,15 @@ def test_the_dependent_depends_on_the_semantic_instance() -> None:
     assert plan_start(index, 'p/View').steps[-1].depends_on == ('p/Front',)
 
 
+def test_the_plan_names_both_capabilities_and_for_each_the_provider_that_was_chosen_first() -> None:
+    index = spec_index(*CAMERAS, 'camera Camera', 'view View Camera=front', 'nav Nav View Camera')
+    plan = plan_start(index, 'p/Nav')
+    assert plan.can_start and plan.order == ['p/front', 'p/view', 'p/camera', 'p/nav']
+    assert plan.providers == {'p/Nav': 'p/nav', 'p/View': 'p/view', 'p/Camera': 'p/front',
+                              'p/Front': 'p/front'}
+    assert set(plan.dependencies) == {'p/nav', 'p/view', 'p/front', 'p/camera'}
+
+
 def test_it_is_never_picked_unnamed_but_mentioned() -> None:
     index = spec_index(*CAMERAS, 'Camera', 'rear Front')
     [fault] = plan_start(index, 'p/Camera').faults

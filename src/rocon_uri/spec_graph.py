@@ -170,7 +170,7 @@ def _mark(nodes: Dict[str, Node], edges: Iterable[Edge], verdicts: Iterable[Verd
 def _used(verdict: Verdict) -> Set[str]:
     """The capabilities and providers that an app needs, those that it may need included."""
     plan = verdict.plan
-    used = {*plan.providers, *plan.providers.values()}
+    used = {*plan.providers, *plan.dependencies}
     for fault in plan.faults:
         used.update((fault.capability, *fault.candidates))
     return used
