@@ -101,6 +101,36 @@ def test_json_stands_before_or_after_the_verb(capsys):
     assert printed[0].startswith('{') and len(set(printed)) == 1
 
 
+@pytest.mark.parametrize('arguments', [
+    ['match', 'rocon:/kobuki', '--in', FLEET, 'rocon:/pr2'],
+    ['specs', 'check', 'examples/workspace/cafe_cart', '--package-path', 'examples/workspace', '-q',
+     'examples/workspace/cafe_rapps'],
+    ['parse', '--in=' + FLEET, 'rocon:/pr2', '-q', '--', 'rocon:/kobuki'],
+    ['fields', '--json', 'operating_system'],
+])
+def test_options_may_stand_between_arguments(arguments, capsys, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    assert main(arguments) == 0
+    assert capsys.readouterr().err == ''
+
+
+@pytest.mark.parametrize('arguments, error', [
+    (['match', 'rocon:/pr2', '--in'], 'argument --in: expected one argument'),
+    (['match', '--in', '--json', 'rocon:/pr2'], 'argument --in: expected one argument'),
+    (['fields', 'name', '-q'], "'name' is none of"),
+    (['check', 'rocon:/pr2', '--json', 'rocon:/pr2', 'c'], 'unrecognized arguments: c'),
+])
+def test_options_between_arguments_take_none_of_them(arguments, error, capsys):
+    assert main(arguments) == 2
+    assert error in capsys.readouterr().err
+
+
+def test_what_follows_two_hyphens_is_no_option(capsys):
+    assert main(['parse', 'rocon:/pr2', '--', '-q', '--json', '-1']) == 2
+    assert re.findall(r"'(-.*)' does not start with", capsys.readouterr().err) == [
+        '-q', '--json', '-1']
+
+
 def test_the_module_and_the_script_are_one_command():
     for arguments in ['--version'], ['parse', 'rocon:/pr2'], ['parse', 'zork']:
         script = run(*arguments)

@@ -67,7 +67,11 @@ class Parser(argparse.ArgumentParser):
             self, args: Optional[Sequence[str]] = None,
             namespace: Optional[argparse.Namespace] = None
             ) -> Tuple[argparse.Namespace, List[str]]:
-        """As argparse does, but an unknown option is the first error, with the near misses."""
+        """
+        As argparse does, but options may stand between arguments, as in ``parse URI -q URI``.
+
+        An unknown option is the first error, with the near misses.
+        """
         for argument in args or ():
             option = argument.partition('=')[0]
             if argument == '--' or self._subparsers is not None and option[:1] != '-':
@@ -77,7 +81,28 @@ class Parser(argparse.ArgumentParser):
                 from rocon_uri.sources.wording import did_you_mean, near_misses
                 self.error('%s is not an option%s' % (option, did_you_mean(
                     near_misses(option, self._option_string_actions))))
-        return super().parse_known_args(args, namespace)
+        return super().parse_known_args(
+            args if args is None or self._subparsers else self._options_first(args), namespace)
+
+    def _options_first(self, args: Sequence[str]) -> Sequence[str]:
+        """The arguments in an order in which argparse takes all that are not options together."""
+        options: List[str] = []
+        others: List[str] = []
+        rest = iter(args)
+        for argument in rest:
+            if argument == '--':
+                others += [argument, *rest]
+            elif self._parse_optional(argument) is None:
+                others.append(argument)
+            else:
+                options.append(argument)
+                action = self._option_string_actions.get(argument)
+                if action is not None and action.nargs is None:     # its value is the next one
+                    value = next(rest, None)
+                    if value is None:
+                        return args         # argparse says that it is missing
+                    options.append(value)
+        return options + others
 
     def _check_value(self, action: argparse.Action, value: object) -> None:
         if action.choices is not None and value not in action.choices:
