@@ -331,6 +331,22 @@ def test_one_app_is_judged_with_all_that_was_judged(apps):
                          '  requires  topics  /say  std_msgs/String  in the app greet/say']
 
 
+def test_what_is_ignored_is_not_said_to_fit(apps):
+    given = '--robot', ROBOT, '--package-path', EXAMPLES, '--ignore', 'platform'
+    status, lines, _ = apps('cafe_cart/carry', *given)
+    assert (status, lines[0]) == (0, 'yes: %s can run cafe_cart/carry' % ROBOT)
+    assert [line.split()[:2] for line in lines[5:]] == [['x', 'launch']]
+    status, lines, _ = apps('cafe_rapps/radio', *given)
+    assert [line.split()[:2] for line in lines[5:]] == [['x', 'platform'], ['x', 'launch']]
+
+
+def test_an_app_may_have_nothing_to_judge(apps, tmp_path):
+    dance(tmp_path, 'display: Dance\n')
+    status, lines, _ = apps('ours/dance', '--robot', ROBOT, '--package-path', tmp_path,
+                            '--ignore', 'virtual')
+    assert (status, lines[-1]) == (0, 'judged  (x fits, . does not)')
+
+
 def test_one_app_that_runs_shows_its_plan_and_the_names_that_it_sees(apps):
     status, lines, _ = apps('cafe_rapps/patrol', '--robot', ROBOT, '--package-path', EXAMPLES)
     assert status == 0

@@ -85,11 +85,13 @@ def test_pairs_that_are_too_complex_are_marked(tmp_path: Path, capsys: Any) -> N
     assert outcome(report_in(page), 0, 0) == {'mark': '?', 'fields': 'x?xx', 'reasons': []}
 
 
-def test_the_page_of_apps_has_the_reasons_of_the_verdicts(tmp_path: Path, capsys: Any) -> None:
+@pytest.mark.parametrize('ignored', [[], ['--ignore', 'platform', '--ignore', 'no-provider']])
+def test_the_page_of_apps_has_the_reasons_of_the_verdicts(
+        tmp_path: Path, capsys: Any, ignored: List[str]) -> None:
     robots = ['rocon:/turtlebot2/bob/noetic/focal', 'rocon:/cafe_cart']
     page = tmp_path / 'apps.html'
     (tmp_path / 'robots.txt').write_text('# the café\n\n%s\n' % '\n'.join(robots), encoding='utf-8')
-    given = ['--package-path', str(EXAMPLES / 'workspace')]
+    given = ['--package-path', str(EXAMPLES / 'workspace'), *ignored]
     assert main(['apps', *given, '--robots-in', str(tmp_path / 'robots.txt'),
                  '--html', str(page)]) == 0
     assert capsys.readouterr() == ('', '')

@@ -93,6 +93,8 @@ class Verdict(NamedTuple):
     reasons: Tuple[Reason, ...]
     #: what starts for it, as much of it as can be had
     plan: StartPlan
+    #: the reasons that were left out, as the caller asked for
+    ignored: Tuple[Reason, ...] = ()
 
     @property
     def providers(self) -> Tuple[str, ...]:
@@ -150,7 +152,8 @@ def runnable(app: App, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
                               ReasonKind.DEPENDENCY, id=fault.kind.value, fault=fault)
                        for fault in plan.faults))
     return Verdict(app=app, reasons=tuple(reason for reason in reasons if reason.id not in ignore),
-                   plan=plan)
+                   plan=plan,
+                   ignored=tuple(reason for reason in reasons if reason.id in ignore))
 
 
 def platform_uri(app: App, vocabulary: Vocabulary) -> Optional[RoconURI]:

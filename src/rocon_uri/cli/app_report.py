@@ -31,7 +31,9 @@ def write_app_report(args: argparse.Namespace, apps: List[App], exported: Worksp
     :returns: bool, is there a robot that can run an app?
     """
     apps = [app for app in apps if app.is_implementation]
-    uris = [platform_uri(app, exported.vocabulary) for app in apps]
+    # a column without a URI is one whose platform does not matter
+    is_ignored = ReasonKind.PLATFORM.value in args.ignore
+    uris = [None if is_ignored else platform_uri(app, exported.vocabulary) for app in apps]
     fleet = FleetReport([Column(label=app.name, about=_about(app), uri=uri)
                          for app, uri in zip(apps, uris)],
                         'robots', 'apps')
@@ -39,7 +41,7 @@ def write_app_report(args: argparse.Namespace, apps: List[App], exported: Worksp
     for robot in _robots(args, exported, report):
         against: List[List[str]] = []
         for app, uri in zip(apps, uris):
-            if app.path not in same or uri is None:
+            if app.path not in same or uri is None and not is_ignored:
                 reasons = runnable(app, robot.uri, exported.spec_index, defaults,
                                    exported.launch_files, args.ignore, args.robot_type).reasons
                 same[app.path] = [_line(reason) for reason in reasons

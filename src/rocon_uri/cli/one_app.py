@@ -12,6 +12,7 @@ from rocon_uri.cli.display import painter
 from rocon_uri.cli.packages import printable, shown_path
 from rocon_uri.cli.rows import print_names, print_rows
 from rocon_uri.compatibility import LEGEND, MARKS
+from rocon_uri.sources import wording
 from rocon_uri.sources.wording import quoted
 from rocon_uri.vocabulary import Vocabulary
 from rocon_uri.workspace import Workspace
@@ -84,11 +85,11 @@ def show_app(verdict: Verdict, robot: str, exported: Workspace,
             print('  ' + printable(text))
     print('  in ' + shown_path(app.path))
     judged = list(_judgements(verdict, exported.vocabulary))
-    width = max(len(what) for _, what, _ in judged)
+    width = max((len(what) for _, what, _ in judged), default=0)
     print('%s  %s' % (paint('judged', 'bold'), paint('(%s)' % LEGEND, 'faint')))
     for fits, what, text in judged:
         print('  %s  %s  %s' % (paint(MARKS[fits], 'green' if fits else 'red'), what.ljust(width),
-                                printable(text)))
+                                wording.printable(text)))
     for reason in verdict.reasons:
         if reason.explanation is not None:
             print(paint('platform', 'bold'))
@@ -100,9 +101,13 @@ def show_app(verdict: Verdict, robot: str, exported: Workspace,
 
 
 def _judgements(verdict: Verdict, vocabulary: Vocabulary) -> Iterator[Tuple[bool, str, str]]:
-    """What was judged, as (does it fit, what, text); what does not fit has the id of the reason."""
+    """
+    What was judged, as (does it fit, what, text); what does not fit has the id of the reason.
+
+    What does not fit and is ignored is not there.
+    """
     app, plan = verdict.app, verdict.plan
-    against = {reason.kind.value for reason in verdict.reasons}
+    against = {reason.kind.value for reason in verdict.reasons + verdict.ignored}
     if 'platform' not in against and isinstance(app, AppFile):
         yield True, 'platform', '%s includes this robot%s' % (
             quoted(app.platform), '' if app.is_registered(vocabulary) else
