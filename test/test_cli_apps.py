@@ -347,6 +347,14 @@ def test_an_app_may_have_nothing_to_judge(apps, tmp_path):
     assert (status, lines[-1]) == (0, 'judged  (x fits, . does not)')
 
 
+def test_white_space_in_a_path_is_left_as_it_is(apps, tmp_path):
+    dance(tmp_path / 'two  blanks')
+    path = tmp_path / 'two  blanks' / 'ours' / 'dance.rapp'
+    given = '--robot', 'rocon:/kobuki', '--package-path', tmp_path
+    assert '      in %s' % path in apps('--all', *given)[1]
+    assert '  in %s' % path in apps('ours/dance', *given)[1]
+
+
 def test_one_app_that_runs_shows_its_plan_and_the_names_that_it_sees(apps):
     status, lines, _ = apps('cafe_rapps/patrol', '--robot', ROBOT, '--package-path', EXAMPLES)
     assert status == 0

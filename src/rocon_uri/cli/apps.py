@@ -51,6 +51,7 @@ from rocon_uri.cli.packages import (
     add_package_path, mention_faults, printable, shortened, shown_path, workspace)
 from rocon_uri.cli.running import add_running, what_runs
 from rocon_uri.compatibility import LEGEND
+from rocon_uri.sources import wording
 from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
@@ -211,7 +212,7 @@ def _show_line(verdict: Verdict, width: int, style: str, show_file: bool) -> Non
 
 
 def _show_reason(reason: Reason) -> None:
-    print('      %s %s' % (printable(reason), painter()('[%s]' % reason.id, 'faint')))
+    print('      %s %s' % (wording.printable(str(reason)), painter()('[%s]' % reason.id, 'faint')))
     if reason.explanation is not None:
         for line in str(reason.explanation).splitlines()[1:-1]:     # the table alone
             print('        ' + painter()(line, 'faint'))

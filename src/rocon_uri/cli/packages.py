@@ -43,7 +43,7 @@ def printable(text: object) -> str:
 def shown_path(path: str) -> str:
     """A path as a terminal shows it: relative, if it is below the working directory."""
     relative = os.path.relpath(path)
-    return printable(path if relative.startswith(os.pardir) else relative)
+    return wording.printable(path if relative.startswith(os.pardir) else relative)
 
 
 def shortened(text: str) -> str:
@@ -76,7 +76,7 @@ def fault_message(fault: Fault) -> Tuple[str, str, Optional[int]]:
     """A fault as (message, file, line)."""
     if isinstance(fault, OSError):
         file = os.fsdecode(fault.filename or '')
-        return '%s: %s' % (printable(file), fault.strerror or fault), file, None
+        return '%s: %s' % (wording.printable(file), fault.strerror or fault), file, None
     return str(fault), fault.file_name, fault.line
 
 

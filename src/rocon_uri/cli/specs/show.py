@@ -22,6 +22,7 @@ from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.packages import (
     add_package_path, meant, mention_faults, printable, workspace)
 from rocon_uri.cli.rows import print_names, print_rows
+from rocon_uri.sources import wording
 from rocon_uri.sources.wording import did_you_mean, quoted
 
 TYPE_CHECKING = False
@@ -95,7 +96,7 @@ def _print(spec: Spec, shown: Shown) -> None:
     paint = painter()
     print('%s %s' % (spec.spec_type.replace('_', ' '), paint(spec.name, 'bold')))
     print('  ' + printable(spec.description))
-    print('  in ' + printable(spec.file_name))
+    print('  in ' + wording.printable(str(spec.file_name)))
     if shown.provider is not None:
         _print_provider(shown.provider)
         print_names('to start, in this order', shown.start_order)
@@ -114,7 +115,7 @@ def _print_provider(spec: CapabilityProvider) -> None:
     print('implements %s' % paint(spec.implements, 'cyan'))
     for key in 'launch_file', 'nodelet_manager':
         if getattr(spec, key) is not None:
-            print('%s %s' % (key, printable(getattr(spec, key))))
+            print('%s %s' % (key, wording.printable(getattr(spec, key))))
     print_names('depends on', (
         dependency.capability_name if dependency.preferred_provider is None
         else '%s by %s' % (dependency.capability_name, dependency.preferred_provider)
