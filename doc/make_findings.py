@@ -20,7 +20,7 @@ What the linter finds
 =====================
 
 ``rocon_uri specs check`` (`The command line <command_line.rst>`__) ends each finding with an id,
-which is stable. ``rocon_uri specs check --explain ID`` prints what is said of it here. A finding
+which is stable. ``rocon_uri specs check --explain ID`` prints what this page says of it. A finding
 that is right and does no harm can be ignored everywhere, with the option ``--ignore ID``, or on
 one line of a YAML file, with a comment on that line:
 
@@ -47,10 +47,10 @@ For whole files of a package, a file ``.rocon_uri.yaml`` beside its package.xml 
 
 REMARKS = {'Launch files': '''\
 A launch file that starts an app manager tells it what the robot is. A manager that was never
-configured calls itself ``robot``, which is a group: every app of a robot is compatible with it, for
-``rocon:/turtlebot`` and ``rocon:/robot/x`` have turtlebots in common. That is right by the
-specification, and probably not what was meant; the linter cannot see it, since the name may come
-from an argument.
+configured calls itself ``robot``, which is a group: every app of a robot is compatible with it,
+since ``rocon:/turtlebot`` and ``rocon:/robot/x`` have turtlebots in common. That is what the
+specification says, and probably not what was meant. The linter cannot see it, since the name may
+come from an argument.
 '''}
 
 

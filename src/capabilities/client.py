@@ -89,7 +89,7 @@ class CapabilitiesClient:
         each capability that it used and that failed, or was stopped by somebody else; the text
         says why
     :param bool strict: let `free_capability` raise the errors that it otherwise only logs
-    :param bool reconnect: make the bond anew when it was broken and the server comes back; the
+    :param bool reconnect: make the bond again when it has broken and the server is back; the
         earlier uses are not repeated
 
     ``use_capability`` and the others take ``timeout`` in seconds, the longest to wait for each

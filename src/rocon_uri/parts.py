@@ -91,7 +91,7 @@ def split(text: str, vocabulary: Vocabulary, strict: bool) -> Parts:
 
     :param str text: anything
     :param Vocabulary vocabulary: the registered platforms
-    :param bool strict: take the text by its letter
+    :param bool strict: take the text literally
     :returns: Parts
     :raises RoconURIValueError: with ``field`` ``'uri'``, if the text as a whole is not legal
     """

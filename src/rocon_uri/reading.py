@@ -103,7 +103,7 @@ def read(text: str, vocabulary: Vocabulary, strict: bool) -> Reading:
     :param str text: anything
     :param Vocabulary vocabulary: the registered values; the complete vocabulary takes its place
         if it only stood in for that one and lacks a value
-    :param bool strict: take the text by its letter
+    :param bool strict: take the text literally
     :returns: Reading
     :raises RoconURIValueError: for a text that is not legal; ``span`` is where in it the fault is
     """

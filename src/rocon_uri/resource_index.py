@@ -39,8 +39,8 @@ class ResourceIndex(Resources):
 
     A request is str or RoconURI too, and matches the resources that `is_compatible` accepts for
     it. An answer takes time in proportion to its length, not to the number of resources; only a
-    pattern with neither prefix nor suffix is matched against all names. The order of names that
-    patterns need is built by the first request with one.
+    pattern with neither prefix nor suffix is matched against all names. Patterns need the names
+    in order; the first request with a pattern sorts them.
 
     :param resources: a mapping from resources to payloads, or an iterable of resources, whose
         payload is then None
@@ -128,9 +128,9 @@ class ResourceIndex(Resources):
 
         :param request: RoconURI, or str that is parsed
         :returns: iterator of RoconURI
-        :raises PatternTooComplex: by the iterator, after all that match, if there are resources
-            whose patterns take too much work to compare, one of them or all together:
-            ``undecided``, a list of RoconURI
+        :raises PatternTooComplex: by the iterator, after all that match, if patterns of resources
+            take too much work to compare, one of them or all together; ``undecided`` of the
+            error is the list of these resources
 
         >>> list(ResourceIndex(['rocon:/pr2/bob', 'rocon:/pr2|pc/b*']).find('rocon:/pc'))
         [RoconURI('rocon:/pr2|pc/b*/*/*')]

@@ -219,10 +219,10 @@ def parse(rocon_uri_string: Resource = 'rocon:/', vocabulary: Optional[Vocabular
 
     :param rocon_uri_string: str; a RoconURI is returned as it is, or read again with the given
         vocabulary
-    :param vocabulary: `Vocabulary` to read with. Where it is left out, that is the bundled one
-        and, after the first value that it does not have, also what the packages on this machine
-        and ROCON_URI_RULES add.
-    :param bool strict: take the text by its letter: what follows ``//`` is a concert even where
+    :param vocabulary: `Vocabulary` to read with. The default is the bundled one, and from the
+        first value on that it does not have, also what the packages on this machine and
+        ROCON_URI_RULES add.
+    :param bool strict: take the text literally: what follows ``//`` is a concert even where
         it is a registered platform, and the fields start with a slash
     :returns: RoconURI
     :raises RoconURIValueError: for a text that is not legal; says which field, where and why

@@ -160,7 +160,7 @@ def _added(known: Mapping[str, Parents], rules: object) -> Dict[str, Parents]:
 
 def read_rules(vocabulary: Vocabulary, path: str) -> Vocabulary:
     """
-    A vocabulary with what one file of rules adds.
+    A vocabulary with what one rules file adds.
 
     :param Vocabulary vocabulary: what it is added to
     :param str path: a YAML or JSON file: fields at the top, nested groups below

@@ -1,4 +1,4 @@
-"""Files of rules, two of a package and one that a machine names: read, folded in, and linted."""
+"""Rules files, two of a package and one that a machine names: read, folded in, and linted."""
 from __future__ import annotations
 
 import json

@@ -5,7 +5,7 @@ A package exports a rapp by the path of its file, relative to the package::
 
     <export><rocon_app>rapps/dance/dance.rapp</rocon_app></export>
 
-Its name consists of those of the package and the file: ``our_rapps/dance``.
+Its name is made of those of the package and the file: ``our_rapps/dance``.
 
 >>> from capabilities.discovery import package_index_from_package_path
 >>> packages = package_index_from_package_path(['examples/workspace'])

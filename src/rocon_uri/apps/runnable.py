@@ -121,7 +121,7 @@ def runnable(app: App, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
     :param robot_uri: the robot, RoconURI or str; it may have values that are not registered, which
         apps that run anywhere do not mind
     :param spec_index: `capabilities.discovery.SpecIndex` of the capabilities that the robot has
-    :param defaults: mapping of names of interfaces to those of the providers to take for them
+    :param defaults: mapping from names of interfaces to names of the providers to take for them
     :param launch_files: `LaunchFiles`, to read each launch file once for several apps
     :param ignore: collection of str, the ids of the reasons to leave out, of `REASON_IDS`
     :param robot_type: str, what the platform of an `AppFile` is compared with if it is not

@@ -86,7 +86,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--html', metavar='FILE',
                         help='write a page for a browser: robots by apps, with all reasons')
     parser.add_argument('--robots-in', metavar='FILE',
-                        help='the robots of that page, one URI a line (default: the --robot)')
+                        help='with --html: the robots, one URI a line (default: the --robot)')
     add_running(parser, 'also which of the capabilities that an app requires run, and by which '
                         'provider')
 

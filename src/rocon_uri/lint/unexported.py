@@ -2,7 +2,7 @@
 Finds the apps and specs of a package that nobody sees, since no export leads to them.
 
 Nothing is looked for below a folder ``test`` or ``tests``. Interactions are named by no export, and
-files of rules cannot be told from other YAML.
+rules files cannot be told from other YAML.
 """
 from __future__ import annotations
 
