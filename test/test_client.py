@@ -273,6 +273,17 @@ def test_without_ros_it_says_in_one_line_what_is_missing(module):
     assert last.startswith('ImportError: the capability server and its client need ROS, and rospy')
 
 
+def test_the_bondpy_of_ubuntu_which_imports_as_python_2_did_will_do(tmp_path):
+    bondpy = tmp_path / 'bondpy'
+    bondpy.mkdir()
+    (bondpy / '__init__.py').write_text('')
+    (bondpy / 'BondSM_sm.py').write_text('')
+    (bondpy / 'bondpy.py').write_text('import BondSM_sm')
+    environment = dict(os.environ, PYTHONPATH='%s:%s' % (tmp_path, os.environ['PYTHONPATH']))
+    subprocess.run([sys.executable, '-c', 'import capabilities.needs_ros; import bondpy.bondpy'],
+                   check=True, env=environment)
+
+
 def test_the_node_says_so_where_the_old_package_comes_first(tmp_path):
     (tmp_path / 'capabilities').mkdir()
     (tmp_path / 'capabilities' / '__init__.py').write_text('')

@@ -5,12 +5,16 @@ Specs, discovery and planning do without ROS.
 """
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 
 __all__: 'list[str]' = []
 
-for _name in 'rospy', 'rosgraph', 'bondpy', 'std_srvs.srv', 'capabilities.msg', 'capabilities.srv':
+for _name in ('rospy', 'rosgraph', 'bondpy.bondpy', 'std_srvs.srv', 'capabilities.msg',
+              'capabilities.srv'):
     try:
+        if _name == 'bondpy.bondpy':    # that of Ubuntu 20.04 itself asks for it as Python 2 does
+            sys.modules.setdefault('BondSM_sm', import_module('bondpy.BondSM_sm'))
         _module = import_module(_name)
     except ImportError as error:
         raise ImportError('the capability server and its client need ROS, and %s cannot be '
