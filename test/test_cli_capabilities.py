@@ -5,6 +5,7 @@ import json
 import signal
 import subprocess
 import sys
+from functools import partial
 
 import pytest
 from made_packages import make_package
@@ -21,16 +22,19 @@ required_capabilities: [{name: robot/Nav}, {name: robot/Camera}]
 NO_MASTER = 'http://127.0.0.1:1'
 
 
+def asked(server, verb, *arguments):
+    """Run a verb on a server: its exit status, output and errors."""
+    done = subprocess.run(
+        [*COMMAND, verb, *arguments, '--server', server.name],
+        env=server.robot.server_environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        universal_newlines=True)
+    return done.returncode, done.stdout, done.stderr
+
+
 @pytest.fixture
 def capabilities(server):
-    """Run a verb on the server of these tests: its exit status, output and errors."""
-    def run(verb, *arguments):
-        done = subprocess.run(
-            [*COMMAND, verb, *arguments, '--server', server.name],
-            env=server.robot.server_environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-            universal_newlines=True)
-        return done.returncode, done.stdout, done.stderr
-    return run
+    """Run a verb on the server of these tests, as `asked` does."""
+    return partial(asked, server)
 
 
 def test_list_has_the_capabilities_with_their_providers(capabilities):
@@ -76,10 +80,11 @@ def test_what_cannot_start_says_why_in_one_line(capabilities):
     assert status == 1 and "did you mean 'robot/Base'" in err
 
 
-def test_what_failed_is_in_the_exit_status(server, capabilities):
-    server.start_capability('Crash')
-    server.wait_for('Crash', 'failed')
-    status, out, _ = capabilities('status', '--json')
+def test_what_failed_is_in_the_exit_status(robot):
+    with robot.server({'nodelet_manager': False}) as server:    # which remembers it
+        server.start_capability('Crash')
+        server.wait_for('Crash', 'failed')
+        status, out, _ = asked(server, 'status', '--json')
     crash = next(one for one in json.loads(out)['capabilities']
                  if one['capability'] == 'robot/Crash')
     assert status == 1 and crash['state'] == 'failed' and crash['exit_code'] == 5

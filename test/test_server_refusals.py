@@ -54,11 +54,14 @@ def test_each_kind_of_fault_is_refused_before_anything_starts(faulty_server, pac
     index, _ = spec_index_from_spec_file_index(spec_file_index_from_package_index(
         package_index_from_package_path([str(packages)])))
     text = error_text(plan_start(index, capability, launch_files=LaunchFiles()))
+    eventually(lambda: faulty_server.statuses() == [])      # another test may have started some
+    faulty_server.wait_for_all_events()
+    launched = faulty_server.types('launched')
     bond = faulty_server.bond()
     for service, *rest in ('start_capability', ''), ('use_capability', '', bond.id):
         assert ('error processing request: ' + text
                 in faulty_server.error(service, capability, *rest))
-    assert faulty_server.statuses() == [] and faulty_server.types('launched') == []
+    assert faulty_server.statuses() == [] and faulty_server.types('launched') == launched
     bond.shutdown()
 
 
