@@ -42,6 +42,8 @@ TESTS = {
     'regular/sorted_walk': ['regular_sorted_walk', 'resource_index'],
     'apps/runnable': ['app_files', 'reasons', 'rapps'],
     'capabilities/discovery': ['discovery', 'packages'],
+    'capabilities/graph': ['graph'],
+    'capabilities/instances': ['instances', 'graph'],
     'capabilities/planning/faults': ['planning', 'providers', 'reasons'],
     'capabilities/planning/launching': ['planning', 'reasons'],
     'capabilities/planning/plan': ['planning', 'providers'],

@@ -473,6 +473,50 @@ def test_a_restart_keeps_all_wants_and_the_order(robot):
     assert robot.graph.current('Nav').bonds == {'two': 1}
 
 
+def test_a_restart_keeps_the_names_that_uses_were_asked_for_by(robot):
+    robot.graph.use('Left', [new_instance('Left', redefines='Good')], 'one', 'Left')
+    robot.graph.use('Right', [new_instance('Right', redefines='Good')], 'one', 'Good')
+    robot.graph.restart(['Right'])
+    robot.graph.free('Good', 'one')
+    assert [instance.interface for instance in robot.graph.instances] == ['Left']
+
+
+def test_an_instance_says_since_when_it_is_in_its_state():
+    now = [0.0]
+    graph = Graph(lambda: now[0])
+    base = new_instance('Base')
+
+    def since_after(second, told, *arguments):
+        now[0] = second
+        told(*arguments)
+        return base.state.value, base.since
+    assert since_after(1, graph.start, 'Base', [base]) == ('launching', 1)
+    assert since_after(2, graph.nodes_started, base) == ('launching', 1)    # it has no process yet
+    assert since_after(3, graph.launched, base, 42) == ('launching', 3)
+    assert since_after(4, graph.nodes_started, base) == ('running', 4)
+    assert since_after(5, graph.nodes_started, base) == ('running', 4)
+    assert since_after(6, graph.noted, base, '/node', 'ended', False) == ('running', 4)
+    assert since_after(7, graph.noted, base, '/node', 'died', True) == ('degraded', 7)
+    assert since_after(8, graph.noted, base, '/other', 'died', True) == ('degraded', 7)
+    assert base.notes == {'/node': 'died', '/other': 'died'}
+    assert since_after(9, graph.restart, ['Base']) == ('stopping', 9)
+    assert (graph.current('Base').state.value, graph.current('Base').since) == ('waiting', 9)
+    assert since_after(10, graph.noted, base, '/node', 'died again', True) == ('stopping', 9)
+
+
+def test_a_failure_says_when_the_instance_had_gone():
+    now = [0.0]
+    graph = Graph(lambda: now[0])
+    base, nav = new_instance('Base'), new_instance('Nav', ['Base'])
+    graph.start('Nav', [base, nav])
+    graph.launched(base, 1)
+    graph.launched(nav, 2)
+    for now[0], instance in (5.0, base), (8.0, nav):
+        graph.ended(instance, 1, 'exit 1')
+    assert {name: failure.since for name, failure in graph.failures.items()} == {
+        'Base': 5.0, 'Nav': 8.0}
+
+
 def test_when_the_server_ends_nothing_more_is_started_or_stopped_one_by_one(robot):
     robot.start('Nav')
     mark = len(robot.told)
@@ -482,6 +526,8 @@ def test_when_the_server_ends_nothing_more_is_started_or_stopped_one_by_one(robo
     assert robot.told_to_stop == []
     with pytest.raises(RefusedRequest, match='the capability server ends'):
         robot.start('Base')
+    with pytest.raises(RefusedRequest, match='the capability server ends'):
+        robot.use('Base')
     for instance in list(robot.processes.values()):
         robot.end(instance)
     assert robot.graph.failures == {} and robot.states() == {}
@@ -490,6 +536,9 @@ def test_when_the_server_ends_nothing_more_is_started_or_stopped_one_by_one(robo
 def test_a_use_needs_a_bond(robot):
     with pytest.raises(RefusedRequest, match="Invalid bond_id given to ~use_capability: 'x'"):
         robot.use('Base', 'x')
+    robot.graph.bond_broken('one')
+    with pytest.raises(RefusedRequest, match="Invalid bond_id given to ~use_capability: 'one'"):
+        robot.use('Base', 'one')
     assert robot.states() == {}
 
 

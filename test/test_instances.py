@@ -71,6 +71,15 @@ def test_uses_are_counted_by_bond(instance):
     assert instance.bonds == {}
 
 
+def test_the_names_that_uses_were_asked_for_by_are_those_of_their_bond(instance):
+    for bond, asked_as in ('a', 'nav/Plain'), ('b', 'nav/Plain'), ('c', 'nav/Nav'):
+        instance.add_use(bond, asked_as)
+    instance.remove_use('c', 'nav/Nav')
+    assert instance.asked_as == {('a', 'nav/Plain'): 1, ('b', 'nav/Plain'): 1}
+    instance.remove_use('b', 'nav/Nav')
+    assert instance.asked_as == {('a', 'nav/Plain'): 1} and instance.bonds == {'a': 1}
+
+
 def test_reverse_dependencies_are_found_by_name(instance):
     assert get_reverse_depends('base/Base', [instance]) == [instance]
     assert get_reverse_depends('nav/Nav', [instance]) == []

@@ -323,6 +323,8 @@ def test_each_step_has_its_launch_file(ours: Path) -> None:
      "provider 'p/nav' has the launch file of 'p/base', which runs already: "),
     (['nav Nav @good.launch'], ['Base base @ -'],
      "provider 'p/nav' has the launch file of 'p/base', which runs already: "),
+    (['nav Nav @good.launch'], ['Base base @ -', 'Base legs @'],
+     "provider 'p/nav' has the launch file of 'p/base', which runs already: "),
     (['nav Nav @good.launch'], ['Nav nav @ -'], None),      # an earlier instance of the same
     (['nav Nav Base @good.launch', 'base Base'], [], None),
     (['nav Nav Base', 'base Base'], ['Other other'], None),     # none of them has one
@@ -388,6 +390,7 @@ def test_an_app_may_need_what_shares_a_launch_file(ours: Path) -> None:
     index = spec_index('a A @good.launch', 'b B @good.launch', folder=str(ours))
     [fault] = plan_for_capabilities(index, ['p/A', 'p/B'], None, LaunchFiles()).faults
     assert fault.kind is FaultKind.LAUNCH_SHARED and fault.sharers == ('p/a', 'p/b')
+    assert (fault.capability, fault.provider, fault.asked_for) == ('p/B', 'p/b', 'p/B')
 
 
 # The texts by which clients recognise errors
