@@ -1,4 +1,5 @@
 """An instance of a capability: its states, and the old class that it is."""
+import copy
 from types import SimpleNamespace
 
 import pytest
@@ -78,6 +79,37 @@ def test_the_names_that_uses_were_asked_for_by_are_those_of_their_bond(instance)
     assert instance.asked_as == {('a', 'nav/Plain'): 1, ('b', 'nav/Plain'): 1}
     instance.remove_use('b', 'nav/Nav')
     assert instance.asked_as == {('a', 'nav/Plain'): 1} and instance.bonds == {'a': 1}
+    for bond in 'abb':
+        instance.add_use(bond, 'nav/Plain')
+    instance.remove_use('a', 'nav/Plain')
+    instance.drop_wants('b')
+    assert instance.asked_as == {('a', 'nav/Plain'): 1} and instance.bonds == {'a': 1}
+
+
+def test_an_instance_that_nobody_wants_was_neither_started_nor_asked_for(instance):
+    instance.started = True
+    instance.add_use('a', 'nav/Plain')
+    instance.drop_wants()
+    assert (instance.started, instance.bonds, instance.asked_as) == (False, {}, {})
+
+
+def test_a_successor_waits_to_run_the_same_for_the_same_wants(instance):
+    one = CapabilityInstance(instance.spec, '/nav.yaml', 'nav/app', 'nav/Plain', '/nav.launch',
+                             ['base/Arm'], True)
+    one.launch()
+    one.launched(42)
+    one.started = True
+    one.dependencies = [instance]
+    one.add_use('a', 'nav/Plain')
+    kept = ('spec', 'provider_path', 'started_by', 'redefines', 'launch_file', 'depends_on',
+            'uses_nodelet_manager', 'started', 'bonds', 'asked_as', 'dependencies')
+    before = [copy.copy(getattr(one, name)) for name in kept]
+    successor = one.successor()
+    one.drop_wants()
+    one.dependencies.clear()
+    assert [getattr(successor, name) for name in kept] == before
+    assert (successor.state, successor.pid, successor.depends_on) == (
+        'waiting', None, ['base/Arm'])
 
 
 def test_reverse_dependencies_are_found_by_name(instance):
