@@ -311,6 +311,7 @@ def test_a_launch_that_fails_takes_what_waits_for_it_along(robot):
     assert robot.states() == {}
     assert robot.graph.failures['Base'].text == 'no memory'
     assert robot.graph.failures['Nav'].text == 'Base, which it depends on, ended'
+    assert robot.graph.failures['Nav'].exit_code == -1
     assert robot.graph.failures['Nav'].started
     assert robot.since(0) == []
 

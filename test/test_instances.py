@@ -19,6 +19,7 @@ def test_it_has_the_attributes_of_old(instance):
     assert (instance.pid, instance.depends_on, instance.canceled, instance.started_by) == (
         None, ['base/Base'], False, 'unknown')
     assert (instance.bonds, instance.reference_count, instance.state) == ({}, 0, 'waiting')
+    assert not instance.uses_nodelet_manager
 
 
 def test_the_states_follow_each_other(instance):
@@ -73,17 +74,22 @@ def test_uses_are_counted_by_bond(instance):
 
 
 def test_the_names_that_uses_were_asked_for_by_are_those_of_their_bond(instance):
-    for bond, asked_as in ('a', 'nav/Plain'), ('b', 'nav/Plain'), ('c', 'nav/Nav'):
-        instance.add_use(bond, asked_as)
-    instance.remove_use('c', 'nav/Nav')
-    assert instance.asked_as == {('a', 'nav/Plain'): 1, ('b', 'nav/Plain'): 1}
-    instance.remove_use('b', 'nav/Nav')
-    assert instance.asked_as == {('a', 'nav/Plain'): 1} and instance.bonds == {'a': 1}
-    for bond in 'abb':
-        instance.add_use(bond, 'nav/Plain')
-    instance.remove_use('a', 'nav/Plain')
-    instance.drop_wants('b')
-    assert instance.asked_as == {('a', 'nav/Plain'): 1} and instance.bonds == {'a': 1}
+    def bond(letter):
+        return 'bond_' + letter     # each time another str, as from a message
+
+    for letter, name in ('c', 'Plain'), ('b', 'Plain'), ('a', 'Nav'):
+        instance.add_use(bond(letter), 'nav/' + name)
+    plain = {('bond_c', 'nav/Plain'): 1, ('bond_b', 'nav/Plain'): 1}
+    assert instance.asked_as == plain
+    instance.remove_use(bond('a'), 'nav/Nav')
+    assert instance.asked_as == plain
+    instance.remove_use(bond('b'), 'nav/Nav')
+    assert instance.asked_as == {('bond_c', 'nav/Plain'): 1} and instance.bonds == {'bond_c': 1}
+    for letter in 'cbb':
+        instance.add_use(bond(letter), 'nav/Plain')
+    instance.remove_use(bond('c'), 'nav/Plain')
+    instance.drop_wants(bond('b'))
+    assert instance.asked_as == {('bond_c', 'nav/Plain'): 1} and instance.bonds == {'bond_c': 1}
 
 
 def test_an_instance_that_nobody_wants_was_neither_started_nor_asked_for(instance):
