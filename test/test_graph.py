@@ -423,6 +423,14 @@ def test_a_stop_drops_what_waits_and_waits_for_what_stops(robot):
     robot.carry_out()
     robot.end_stopped()
     assert robot.states() == {}
+    assert [name for told, name in robot.told if told == 'gone'] == ['Base', 'Base']
+
+
+def test_a_stop_waits_for_what_depends_on_it(robot):
+    robot.start('Patrol')
+    waited_for = robot.graph.stop('Base')
+    robot.carry_out()
+    assert {instance.interface for instance in waited_for} == {'Base', 'Nav', 'Patrol'}
 
 
 def test_free_of_what_waits_leaves_what_stops_alone(robot):
@@ -457,7 +465,7 @@ def test_of_several_semantic_interfaces_the_one_asked_for_by_that_name_is_freed(
 def test_the_interface_itself_is_freed_before_a_semantic_one(robot):
     robot.graph.use('Sem', [new_instance('Sem', redefines='Good')], 'one', 'Good')
     robot.graph.use('Good', [new_instance('Good')], 'one', 'Good')
-    robot.graph.free('Good', 'one')
+    robot.graph.free(''.join('Good'), 'one')    # another str, as from a message
     assert robot.graph.current('Good') is None
     assert robot.graph.current('Sem') is not None
 
@@ -499,6 +507,7 @@ def test_an_instance_says_since_when_it_is_in_its_state():
     assert since_after(6, graph.noted, base, '/node', 'ended', False) == ('running', 4)
     assert since_after(7, graph.noted, base, '/node', 'died', True) == ('degraded', 7)
     assert since_after(8, graph.noted, base, '/other', 'died', True) == ('degraded', 7)
+    assert since_after(8, graph.nodes_started, base) == ('degraded', 7)
     assert base.notes == {'/node': 'died', '/other': 'died'}
     assert since_after(9, graph.restart, ['Base']) == ('stopping', 9)
     assert (graph.current('Base').state.value, graph.current('Base').since) == ('waiting', 9)
@@ -521,7 +530,9 @@ def test_a_failure_says_when_the_instance_had_gone():
 def test_when_the_server_ends_nothing_more_is_started_or_stopped_one_by_one(robot):
     robot.start('Nav')
     mark = len(robot.told)
+    assert not robot.graph.ends
     robot.graph.end()
+    assert robot.graph.ends
     robot.carry_out()
     assert robot.since(mark) == [('stopped', 'Nav'), ('stopped', 'Base')]
     assert robot.told_to_stop == []
