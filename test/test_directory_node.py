@@ -237,3 +237,20 @@ def test_arguments_that_are_wrong(robot, program, arguments, text):
     assert done.returncode == 2
     assert done.stderr.startswith(text)
     assert done.stderr.count('\n') == 1
+
+
+@pytest.mark.parametrize('name, program, arguments', [
+    ('announce', ANNOUNCE, [BOB]), ('resource_directory', DIRECTORY, [])])
+def test_who_gives_up_waiting_for_a_master_is_told_in_one_line(robot, name, program, arguments):
+    node = subprocess.Popen([sys.executable, '-u', '-c', program, *arguments],
+                            env=dict(robot.server_environment, ROS_MASTER_URI='http://127.0.0.1:1'),
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+    try:
+        assert node.stdout.readline().startswith('Unable to register with master node')
+        node.send_signal(signal.SIGINT)
+        _, err = node.communicate(timeout=PATIENCE)
+        assert (node.returncode, err) == (
+            2, '%s: ended before a ROS master answered at http://127.0.0.1:1\n' % name)
+    finally:
+        node.kill()
+        node.communicate()

@@ -11,6 +11,7 @@ import threading
 import time
 from typing import Optional, Union
 
+import rosgraph
 import rospy
 
 from rocon_uri.announcement import check_key, check_lifetime
@@ -128,13 +129,18 @@ def _read(uri: Union[str, RoconURI, None]) -> RoconURI:
     return parse(uri, Vocabulary.open()) if isinstance(uri, str) else uri
 
 
+def no_master() -> str:
+    """What a node says that was told to end while it waited for the master."""
+    return 'ended before a ROS master answered at %s' % rosgraph.get_master_uri()
+
+
 def main() -> int:
     """The node ``announce``; returns its exit status."""
     parser = argparse.ArgumentParser(
         prog='announce', description='Announce a robot to the resource directory of its master, '
         'and say goodbye when it ends.', epilog='The name of the node says who it is: give each '
         'robot of a master another one (__name:=announce_bob), since a node ends an earlier one of '
-        'its name. Exit status: 0; 2 for arguments that are wrong.')
+        'its name. Exit status: 0; 2 for arguments that are wrong, or if no master ever answered.')
     parser.add_argument('uri', nargs='?', help='the robot (default: what rocon_uri platform shows)')
     parser.add_argument('--period', type=float, default=5.0, metavar='SECONDS',
                         help='between announcements (default: 5)')
@@ -150,6 +156,9 @@ def main() -> int:
         Announcer(arguments.uri, arguments.period, arguments.lifetime, arguments.key)
     except ValueError as error:
         print('announce: %s' % error, file=sys.stderr)
+        return 2
+    except rospy.ROSInitException:
+        print('announce: %s' % no_master(), file=sys.stderr)
         return 2
     rospy.spin()
     return 0

@@ -17,7 +17,7 @@ import rosgraph
 import rospy
 
 from rocon_uri.announcement import Values
-from rocon_uri.announcer import TOPIC
+from rocon_uri.announcer import TOPIC, no_master
 from rocon_uri.apps.runnable import App, platform_uri
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.msg import Announcement, AppRobots, ResourceChange, Resources
@@ -229,10 +229,13 @@ def main() -> int:
         return 2
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(line_buffering=True)     # in a file, too, a line is there at once
-    rospy.init_node('resource_directory')
     try:
+        rospy.init_node('resource_directory')
         node = DirectoryNode()
     except (ImportError, NotImplementedError, OSError, ValueError) as error:
         print('resource_directory: %s' % ' '.join(str(error).split()), file=sys.stderr)
+        return 2
+    except rospy.ROSInitException:
+        print('resource_directory: %s' % no_master(), file=sys.stderr)
         return 2
     return 0 if node.spin() else 1
