@@ -95,6 +95,22 @@ def test_a_terminal_shows_how_far_it_is(file):
     assert before.split('\r')[-2].isspace() and before[-1] == '\r' and after.count('\n') == 1
 
 
+def test_the_tqdm_of_ubuntu_which_knows_no_nrows_will_do(file):
+    pytest.importorskip('tqdm')
+    older = '''
+import tqdm
+def older(init=tqdm.tqdm.__init__):
+    def __init__(self, **options):
+        if 'nrows' in options:
+            raise KeyError('nrows')
+        init(self, **options, nrows=20)
+    return __init__
+tqdm.tqdm.__init__, tqdm.tqdm.__del__ = older(), lambda self: None
+'''
+    seen = stderr_on_a_terminal('exec(%r)' % older, file)
+    assert '100%' in seen and 'Traceback' not in seen
+
+
 def test_without_tqdm_there_are_only_the_errors(file):
     seen = stderr_on_a_terminal('import sys; sys.modules["tqdm"] = None', file)
     assert seen.count('\r\n') == seen.count(file) == 2 and '%' not in seen

@@ -40,9 +40,13 @@ def progress(size: Optional[int]) -> Union[tqdm, _NoBar]:
         except ImportError:
             pass
         else:
-            # Without nrows, newer versions show nothing on a terminal that does not know its
-            # height, as in a container.
-            return tqdm(total=size, unit='B', unit_scale=True, leave=False, nrows=20)
+            options = {'total': size, 'unit': 'B', 'unit_scale': True, 'leave': False}
+            try:
+                # Without nrows, newer versions show nothing on a terminal that does not know its
+                # height, as in a container.
+                return tqdm(nrows=20, **options)
+            except KeyError:    # that of Ubuntu 20.04 does not know it
+                return tqdm(**options)
     return _NoBar()
 
 
