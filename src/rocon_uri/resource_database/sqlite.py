@@ -130,23 +130,26 @@ def prepare_file(engine: Engine, create: bool) -> None:
     if not create and path and not path.startswith('file:') and not os.path.exists(path):
         raise DatabaseError('%s: No such file or directory' % shown(engine))
     with raw_connection(engine) as cursor:
-        cursor.execute('PRAGMA database_list')
-        is_file = any(name == 'main' and path for _, name, path in cursor.fetchall())
+        is_file = any(name == 'main' and path
+                      for _, name, path in _pragma(cursor, 'database_list'))
         if not is_file and not isinstance(engine.pool, StaticPool):
             raise ValueError('SQLite in memory needs an engine with poolclass=StaticPool: else '
                              'each connection has a database of its own')
         if is_file and create:
-            _set_wal(cursor)
+            _pragma(cursor, 'journal_mode = WAL')
 
 
-def _set_wal(cursor: DBAPICursor) -> None:
-    """Set WAL. While another one does, SQLite may refuse that at once, whatever its timeout is."""
+def _pragma(cursor: DBAPICursor, text: str) -> List[Tuple[object, ...]]:
+    """
+    The rows of a PRAGMA.
+
+    While another one makes the file, SQLite may refuse it at once, whatever the timeout is.
+    """
     end = time.monotonic() + _BUSY_MILLISECONDS / 1000
     while True:
         try:
-            cursor.execute('PRAGMA journal_mode = WAL')
-            cursor.fetchall()
-            return
+            cursor.execute('PRAGMA ' + text)
+            return list(cursor.fetchall())
         except sqlite3.OperationalError as error:
             if 'locked' not in str(error) or time.monotonic() >= end:
                 raise
