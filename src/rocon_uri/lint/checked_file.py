@@ -116,7 +116,10 @@ class CheckedFile(Reading):
         for path in inside:
             if os.path.isfile(path):
                 return path
-        if inside:
+        denied = [problem for problem in map(_denied, inside) if problem]
+        if denied:
+            self.add(if_missing, '%s %s %s' % (what, quoted(name), denied[0]), place, 'cannot-read')
+        elif inside:
             is_there = any(map(os.path.exists, inside))
             other = None if is_there else not_a_path(name, folders[0], self.package_folder)
             problem = 'is not a file' if is_there else 'does not exist'
@@ -216,3 +219,14 @@ class CheckedFile(Reading):
         shown = self._lines[line - 1][column - 1:] if line <= len(self._lines) else ''
         start = next((start for start in (0, 1) if shown.startswith(text, start)), None)
         return place if start is None else (line, column + start + index)
+
+
+def _denied(path: str) -> str:
+    """Why it cannot be found out whether something is there; '' where it can."""
+    try:
+        os.stat(path)
+    except PermissionError as error:
+        return 'cannot be read: %s' % error.strerror
+    except (OSError, ValueError):
+        pass
+    return ''

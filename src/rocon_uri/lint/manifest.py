@@ -96,10 +96,16 @@ def _check_app_dir(export: Export, package: Package, file: CheckedFile) -> None:
     if name and not is_inside(path, package.folder):
         file.error('exported folder %s is outside the package' % quoted(name), place,
                    'file-outside')
-    elif name and not os.path.isdir(path):
-        file.error('exported folder %s %s' % (
-            quoted(name), 'is not a directory' if os.path.exists(path) else 'does not exist'),
-            place, 'file-missing')
+    elif name:
+        try:
+            os.listdir(path)
+        except PermissionError as error:
+            file.error('exported folder %s cannot be read: %s' % (quoted(name), error.strerror),
+                       place, 'cannot-read')
+        except OSError as error:
+            file.error('exported folder %s %s' % (
+                quoted(name), 'is not a directory' if isinstance(error, NotADirectoryError)
+                else 'does not exist'), place, 'file-missing')
 
 
 def _place(problem: str, elements: Sequence[Element]) -> Place:
