@@ -386,6 +386,11 @@ def test_all_faults_stand_in_an_order_that_does_not_change(ours: Path) -> None:
                               LaunchFiles(), nodelet_manager=False)
 
 
+def test_a_fault_of_what_is_needed_twice_is_one() -> None:
+    plan = plan_for_capabilities(spec_index('a A', 'b A'), ['p/A', 'p/B', 'p/A', 'p/B'])
+    assert [fault.kind.value for fault in plan.faults] == ['ambiguous', 'no-interface']
+
+
 def test_an_app_may_need_what_shares_a_launch_file(ours: Path) -> None:
     index = spec_index('a A @good.launch', 'b B @good.launch', folder=str(ours))
     [fault] = plan_for_capabilities(index, ['p/A', 'p/B'], None, LaunchFiles()).faults

@@ -70,7 +70,7 @@ def plan_for_capabilities(spec_index: SpecIndex, capabilities: Iterable[str],
     []
     """
     planner = Planner(spec_index, defaults)
-    for capability in capabilities:
+    for capability in dict.fromkeys(capabilities):      # of one named twice, each fault once
         planner.add(capability)
     return planner.plan(None if launch_files is None else launch_files.look_at)
 
