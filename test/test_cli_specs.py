@@ -121,6 +121,17 @@ def test_show_of_a_provider_that_cannot_start_has_the_faults(specs):
                         "'cafe_capabilities/Lift': no provider implements it\n")
 
 
+def test_show_of_a_provider_looks_at_the_launch_files_that_it_needs(specs, tmp_path):
+    spec = 'spec_version: 1\nspec_type: %s\nname: %s\n'
+    make_package(
+        tmp_path, 'ours', [('capability_interface', 'Base.yaml'),
+                           ('capability_provider', 'base.yaml')],
+        Base_yaml=spec % ('interface', 'Base'),
+        base_yaml=spec % ('provider', 'base') + 'implements: ours/Base\nlaunch_file: no.launch\n')
+    _, out, _ = specs('show', 'ours/base', '--package-path', tmp_path)
+    assert out.endswith("faults\n  provider 'ours/base': launch file 'no.launch' does not exist\n")
+
+
 @pytest.mark.parametrize('name, meant', [
     ('cafe_capabilities/MobleBase', "(did you mean 'cafe_capabilities/MobileBase'?)"),
     ('MobileBase', "(did you mean 'cafe_capabilities/MobileBase'?)"),

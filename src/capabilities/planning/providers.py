@@ -102,14 +102,15 @@ def plan_start(spec_index: SpecIndex, capability: str, preferred_provider: Optio
     return planner.plan(None if launch_files is None else launch_files.look_at, nodelet_manager)
 
 
-def plan_for_provider(spec_index: SpecIndex, provider_name: str,
-                      defaults: Defaults = None) -> StartPlan:
+def plan_for_provider(spec_index: SpecIndex, provider_name: str, defaults: Defaults = None,
+                      launch_files: LaunchFacts = None) -> StartPlan:
     """
     What it takes to start a provider. In the order of the plan it is the last.
 
     :param SpecIndex spec_index: what there is
     :param str provider_name: ``package/name``
     :param defaults: mapping from capabilities to their default providers, both str, or None
+    :param launch_files: as `plan_for_capabilities` takes
     :returns: `StartPlan`
     :raises KeyError: if there is no such provider
 
@@ -124,7 +125,7 @@ def plan_for_provider(spec_index: SpecIndex, provider_name: str,
     if provider is None:
         raise KeyError(provider_name)
     planner.add(provider.implements, provider_name)
-    return planner.plan()
+    return planner.plan(None if launch_files is None else launch_files.look_at)
 
 
 def find_cycles(spec_index: SpecIndex, defaults: Defaults = None) -> List[Fault]:

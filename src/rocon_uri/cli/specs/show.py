@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from capabilities.spec_index import Spec, SpecIndex
     from capabilities.specs.interface import CapabilityInterface
     from capabilities.specs.provider import CapabilityProvider
+    from rocon_uri.sources.launch_file import LaunchFiles
 
 __all__ = ['add_arguments', 'main']
 
@@ -51,7 +52,7 @@ def main(args: argparse.Namespace) -> int:
         report.bad('no spec has the name %s%s' % (quoted(args.name), did_you_mean(suggestions)),
                    suggestions=suggestions)
     mention_faults(args, report, exported, [] if spec else [args.name])
-    shown = Shown(spec, index)
+    shown = Shown(spec, index, exported.launch_files)
     if args.json:
         print_json({
             'spec': spec and spec.to_dict(), 'spec_type': spec and spec.spec_type,
@@ -67,7 +68,7 @@ def main(args: argparse.Namespace) -> int:
 class Shown:
     """A spec, and what the other specs say about it."""
 
-    def __init__(self, spec: Optional[Spec], index: SpecIndex) -> None:
+    def __init__(self, spec: Optional[Spec], index: SpecIndex, launch_files: LaunchFiles) -> None:
         from capabilities.planning.providers import plan_for_provider    # here, since it loads YAML
         from capabilities.specs.common import InvalidSpec
         from capabilities.specs.interface import CapabilityInterface
@@ -81,7 +82,7 @@ class Shown:
         #: those of an interface or semantic interface
         self.providers = [] if spec is None else index.providers_of(spec.name)
         if isinstance(spec, CapabilityProvider):
-            plan = plan_for_provider(index, spec.name)
+            plan = plan_for_provider(index, spec.name, launch_files=launch_files)
             self.start_order, self.faults = plan.order, list(map(str, plan.faults))
         elif isinstance(spec, SemanticCapabilityInterface):
             try:
