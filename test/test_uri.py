@@ -255,6 +255,15 @@ def test_what_is_no_text_is_a_type_error(text):
         parse(text)
 
 
+@pytest.mark.parametrize('field', FIELDS)
+@pytest.mark.parametrize('value, kind', [
+    (None, 'NoneType'), (3, 'int'), (['pr2', None], 'NoneType'), ([b''], 'bytes')])
+def test_what_is_no_field_is_a_type_error_that_names_it(field, value, kind):
+    for make in RoconURI.from_fields, parse('rocon:/').replace:
+        with pytest.raises(TypeError, match='^%s is a str, .*, not %s$' % (field, kind)):
+            make(**{field: value})
+
+
 # Kept
 
 def test_no_attribute_can_be_set():

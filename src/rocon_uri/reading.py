@@ -139,12 +139,21 @@ def _text(field: str, value: FieldText) -> str:
     """The text of a field that is given as a str, as a Field or as alternatives."""
     if isinstance(value, (str, Field)):
         return str(value)
+    if not hasattr(value, '__iter__'):
+        raise _no_field(field, value)
     alternatives = list(value)
     for alternative in alternatives:
+        if not isinstance(alternative, str):
+            raise _no_field(field, alternative)
         if not alternative or '|' in alternative:
             raise RoconURIValueError('%s %s is not one alternative' % (field, quoted(alternative)),
                                      alternative, field, alternative)
     return '|'.join(alternatives)
+
+
+def _no_field(field: str, value: object) -> TypeError:
+    return TypeError('%s is a str, a Field or an iterable of str, not %s'
+                     % (field, type(value).__name__))
 
 
 def _read_parts(parts: Parts) -> Reading:
