@@ -288,6 +288,14 @@ def test_files_in_a_folder_that_cannot_be_read(workspace):
                           'bad/locked/a.yaml: Permission denied']
 
 
+def test_a_line_with_as_many_comments_as_a_file_may_have(workspace):
+    add_package(workspace, 'bad', {'rocon_app': 'look.rapp'}, look_launch='<launch/>',
+                look_rapp=LOOK.rstrip() + 'x  ' + '# rocon_uri: ignore[' * 50000)
+    add_package(workspace, 'worse', {'rocon_app': '<!-- rocon_uri: ignore[' * 40000})
+    findings = check_packages([str(workspace)])
+    assert [finding.id for finding in findings] == ['no-interface', 'invalid-manifest']
+
+
 def make_huge(path):
     path.write_text('<package>%s</package>' % (' ' * 2 ** 20))
 

@@ -108,3 +108,18 @@ def test_what_is_wrong_with_a_list_is_found_in_it(tmp_path: Path, monkeypatch: A
     assert found(tmp_path, monkeypatch, installed=installed) == [
         "our.installed:1:33: error: app 'ours/dnace' does not exist: package 'ours' has no file "
         "'dnace.app' (did you mean 'ours/dance'?) [unknown-app]"]
+
+
+def test_what_was_meant_is_said_of_a_few_plugins(tmp_path: Path, monkeypatch: Any) -> None:
+    plugins = 'plugins: [%s]\nplugin_order: [%s]\n' % (
+        ', '.join('{name: plugin_%d, type: t}' % number for number in range(30)),
+        ', '.join('plugim_%d' % number for number in range(30)))
+    findings = found(tmp_path, monkeypatch, DANCE + plugins)
+    assert ['did you mean' in finding for finding in findings] == [True] * 20 + [False] * 10
+
+
+def test_a_plugin_in_the_order_may_be_anything(tmp_path: Path, monkeypatch: Any) -> None:
+    findings = found(tmp_path, monkeypatch,
+                     DANCE + 'plugins: [{name: a, type: t}]\nplugin_order: [a, [a], 7]\n')
+    assert [finding.partition(', ')[0].partition(' has ')[2] for finding in findings] == [
+        "'['a']'", "'7'"]

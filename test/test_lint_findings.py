@@ -9,7 +9,8 @@ import pytest
 from made_packages import make_package
 from sources import ROOT, SOURCE
 
-from rocon_uri.lint import check_packages
+from rocon_uri.lint import check_packages, ignoring
+from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.explanations import EXPLANATIONS
 from rocon_uri.sources.located import LocatedError
 from rocon_uri.sources.yaml_source import load
@@ -111,6 +112,29 @@ def test_a_comment_in_a_launch_file_ignores(tmp_path, monkeypatch):
     make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp')], dance_rapp=RAPP,
                  dance_launch=launch)
     assert ids(tmp_path, monkeypatch) == []
+
+
+def test_the_comments_of_a_line_are_read_once(tmp_path, monkeypatch):
+    read = []
+    monkeypatch.setattr(ignoring, '_ids_in_yaml', lambda line: read.append(line) or ['unknown-key'])
+    make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp')], dance_rapp='{%s}' % ', '.join(
+        'key%d: 1' % number for number in range(100)))
+    assert ids(tmp_path, monkeypatch) == [('ours/dance.rapp', 'missing-key')]
+    assert len(read) == 1
+
+
+def test_what_was_meant_is_said_of_a_few_ids(tmp_path, monkeypatch):
+    folder = make_package(tmp_path, 'ours')
+    (folder / '.rocon_uri.yaml').write_text('ignore: [%s]' % ', '.join(
+        'launch-mising%d' % number for number in range(30)))
+    assert ['did you mean' in finding.problem for finding in check_packages([str(folder)])] == (
+        [True] * 20 + [False] * 10)
+
+
+def test_near_misses_among_many_names_are_looked_for_as_long_as_it_does_not_take_long():
+    file = CheckedFile('dance.rapp', '.')
+    assert file.suggestion('wave', ['wavy']) == " (did you mean 'wavy'?)"
+    assert file.suggestion('wave', ['wavy'] * 20000) == ''
 
 
 @pytest.mark.parametrize('configuration, found', [

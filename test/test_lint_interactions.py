@@ -159,3 +159,12 @@ def test_references_between_entries(tmp_path, monkeypatch, names, finding):
     other = PAIRED.replace('Menu', 'Other').replace('Talk', 'Else') % ('Else', 'Other')
     assert found(tmp_path, monkeypatch, PAIRED % names, y_interactions=other) == (
         [finding] if finding else [])
+
+
+def test_what_was_meant_is_said_of_a_few_references(tmp_path, monkeypatch):
+    text = 'pairings: [%s]\ninteractions: [%s]\n' % (
+        ', '.join('{name: pairing_%d, rapp: ours/honk}' % number for number in range(30)),
+        ', '.join(str(later(name='Menu %d' % number, required_pairings=['pairimg_%d' % number]))
+                  for number in range(30)))
+    assert ['did you mean' in finding for finding in found(tmp_path, monkeypatch, text)] == (
+        [True] * 20 + [False] * 10)

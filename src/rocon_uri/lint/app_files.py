@@ -76,14 +76,14 @@ def _check_options(source: CheckedMapping, file: CheckedFile) -> None:
         if value is not None and (not isinstance(value, kinds)
                                   or key == 'timeout' and isinstance(value, bool)):
             file.refuse(source.wrong(key, expected))
-    plugins = [plugin.required_text('name')
+    plugins = {plugin.required_text('name')
                for plugin in file.mappings(source.sequence('plugins'), 'a plugin',
                                            'a mapping with a name and a type')
-               if plugin.required_text('type')]
+               if plugin.required_text('type')}
     for name in source.sequence('plugin_order'):
-        if plugins and name not in plugins:
+        if plugins and not (isinstance(name, str) and name in plugins):
             file.warn('plugin_order has %s, and there is no such plugin%s' % (
-                quoted(str(name)), did_you_mean(near_misses(str(name), plugins))),
+                quoted(str(name)), file.suggestion(str(name), plugins)),
                 source.value_place('plugin_order'), 'unknown-name')
 
 

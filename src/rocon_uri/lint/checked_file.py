@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from typing import Iterable, List, Optional, Sequence
+from typing import Collection, List, Optional, Sequence
 
 from capabilities.specs.interface import CapabilityInterface
 from rocon_uri.exceptions import RoconURIValueError
@@ -22,6 +22,7 @@ from rocon_uri.vocabulary import Vocabulary
 __all__ = ['CheckedFile', 'is_inside']
 
 _SUGGESTING = 20    # findings: with more, no near misses are looked for, which takes long
+_MAX_COMPARED = 20000   # names, before which near misses are looked for: up to 1.2 s
 
 
 def is_inside(path: str, folder: str) -> bool:
@@ -57,6 +58,7 @@ class CheckedFile(Reading):
         self.package_folder = package_folder
         self.findings: List[Finding] = []
         self._lines: Optional[List[str]] = None
+        self._compared = 0
 
     def add(self, severity: str, problem: str, place: Place, fault_id: str) -> None:
         """Note a finding with a severity, `ERROR` or `WARNING`."""
@@ -177,7 +179,7 @@ class CheckedFile(Reading):
                 is_below = name.rpartition('/')[0] in names
                 self.add(WARNING if is_below else ERROR, '%s has no %s in %s to remap%s' % (
                     quoted(interface.name), quoted(name), kind,
-                    self._suggestion(name, names)), new_names.key_place(name), 'unknown-name')
+                    self.suggestion(name, names)), new_names.key_place(name), 'unknown-name')
             self.check_ros_name(new_names.get(name), 'new name', new_names.value_place(name))
 
     def check_compatibility(self, text: str, vocabulary: Vocabulary, place: Place) -> None:
@@ -200,8 +202,11 @@ class CheckedFile(Reading):
             self.warn('compatibility: ' + misplaced, self._place_in_text(text, index, place),
                       'misplaced-name')
 
-    def _suggestion(self, text: str, candidates: Iterable[str]) -> str:
-        return did_you_mean(near_misses(text, candidates)) if self._has_few_findings() else ''
+    def suggestion(self, text: str, candidates: Collection[str]) -> str:
+        """The end of an error: what was probably meant. It is empty after many, or much work."""
+        self._compared += len(candidates)
+        is_looked_for = self._has_few_findings() and self._compared <= _MAX_COMPARED
+        return did_you_mean(near_misses(text, candidates)) if is_looked_for else ''
 
     def _has_few_findings(self) -> bool:
         return len(self.findings) < _SUGGESTING

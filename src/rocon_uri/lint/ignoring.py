@@ -16,13 +16,13 @@ from __future__ import annotations
 import os
 import re
 from fnmatch import fnmatchcase
-from typing import Collection, Iterable, Iterator, List, NamedTuple, Tuple
+from typing import Collection, Dict, FrozenSet, Iterable, Iterator, List, NamedTuple, Tuple
 
 from rocon_uri.lint.checked_file import CheckedFile, is_inside
 from rocon_uri.lint.explanations import EXPLANATIONS
 from rocon_uri.lint.finding import Finding
 from rocon_uri.lint.source_lines import SourceLines, is_xml
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.sources.wording import quoted
 from rocon_uri.sources.yaml_data import value_place
 
 __all__ = ['CONFIGURATION', 'Ignored', 'read_configuration', 'without_ignored']
@@ -30,8 +30,8 @@ __all__ = ['CONFIGURATION', 'Ignored', 'read_configuration', 'without_ignored']
 #: the file in the folder of a package that says what is ignored in its files
 CONFIGURATION = '.rocon_uri.yaml'
 
-_ids_in_yaml = re.compile(r'#\s*rocon_uri:\s*ignore\[([^\]]*)\]').findall
-_ids_in_xml = re.compile(r'<!--\s*rocon_uri:\s*ignore\[([^\]]*)\]\s*-->').findall
+_ids_in_yaml = re.compile(r'#\s*rocon_uri:\s*ignore\[([^][]*)\]').findall
+_ids_in_xml = re.compile(r'<!--\s*rocon_uri:\s*ignore\[([^][]*)\]\s*-->').findall
 _is_xml_comment = re.compile(r'\s*<!--((?!-->).)*-->\s*').fullmatch
 
 
@@ -79,7 +79,7 @@ def read_configuration(package_folder: str) -> Tuple[List[Ignored], List[Finding
             ignored.append(Ignored(folder=package_folder, id=fault_id, glob=glob or '*'))
         elif fault_id:
             file.warn('%s is not the id of a finding%s' % (
-                quoted(fault_id), did_you_mean(near_misses(fault_id, EXPLANATIONS))), place,
+                quoted(fault_id), file.suggestion(fault_id, EXPLANATIONS)), place,
                 'wrong-value')
     return ignored, file.findings
 
@@ -96,24 +96,38 @@ def without_ignored(findings: Iterable[Finding], ids: Collection[str],
     >>> list(without_ignored([Finding('/a', 1, 1, 'error', 'no', 'cycle')], ['cycle'], []))
     []
     """
-    lines = SourceLines()
-    by_id: dict[str, List[Ignored]] = {}
+    comments = _Comments()
+    by_id: Dict[str, List[Ignored]] = {}
     for ignored in configured:
         by_id.setdefault(ignored.id, []).append(ignored)
     for finding in findings:
-        if not (finding.id in ids or finding.id in _ids_of_comments(finding, lines)
+        if not (finding.id in ids or finding.id in comments.ids(finding)
                 or any(ignored.covers(finding) for ignored in by_id.get(finding.id, ()))):
             yield finding
 
 
-def _ids_of_comments(finding: Finding, lines: SourceLines) -> List[str]:
-    """The ids in a comment on the line of a finding, in XML also in one alone on the line above."""
-    if finding.line is None:
-        return []
-    line = lines.line(finding.file_name, finding.line)
-    if not is_xml(finding.file_name):
-        found = _ids_in_yaml(line)
-    else:
-        above = lines.line(finding.file_name, finding.line - 1)
-        found = _ids_in_xml(line) + (_ids_in_xml(above) if _is_xml_comment(above) else [])
-    return [fault_id.strip() for ids in found for fault_id in ids.split(',')]
+class _Comments:
+    """The comments on the lines of findings, each line read once."""
+
+    def __init__(self) -> None:
+        self._lines = SourceLines()
+        self._ids: Dict[Tuple[str, int], FrozenSet[str]] = {}
+
+    def ids(self, finding: Finding) -> FrozenSet[str]:
+        """Those in a comment on its line, in XML also in one alone on the line above."""
+        if finding.line is None:
+            return frozenset()
+        place = finding.file_name, finding.line
+        if place not in self._ids:
+            self._ids[place] = frozenset(self._read(*place))
+        return self._ids[place]
+
+    def _read(self, path: str, number: int) -> Iterator[str]:
+        line = self._lines.line(path, number)
+        if not is_xml(path):
+            found = _ids_in_yaml(line)
+        else:
+            above = self._lines.line(path, number - 1)
+            found = _ids_in_xml(line) + (_ids_in_xml(above) if _is_xml_comment(above) else [])
+        for ids in found:
+            yield from map(str.strip, ids.split(','))

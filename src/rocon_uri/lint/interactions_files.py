@@ -125,7 +125,7 @@ def _check_references(entries: Iterable[_Entry], file: CheckedFile, others: Iter
         text = file.text(name, key, place)
         if text and text not in known[kind]:
             file.error('%s %s does not exist in the interactions of the package%s' % (
-                kind, quoted(text), did_you_mean(near_misses(text, known[kind]))), place, fault_id)
+                kind, quoted(text), file.suggestion(text, known[kind])), place, fault_id)
 
     for entry in entries:
         source = entry.source
