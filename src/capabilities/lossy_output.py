@@ -1,9 +1,11 @@
 """
-Standard output and error whose text is lost where it cannot be written, as on a full disk.
+Standard output and error of a node: a line is written at once, and lost where that is impossible.
 
-ROS writes its log to both, and would raise what that raises wherever something is logged. Imports
+ROS writes its log to both, and would raise what a full disk raises wherever something is logged. In
+a file, Python would keep what is written until there is more, up to 3.8 the warnings too. Imports
 only the standard library, since `capabilities.runner` is run by its path.
 """
+import io
 import sys
 from typing import TextIO
 
@@ -36,4 +38,7 @@ class _Lossy:
 
 def install() -> None:
     """Let this process write to its standard output and error in that way."""
+    for stream in sys.stdout, sys.stderr:
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(line_buffering=True)
     sys.stdout, sys.stderr = _Lossy(sys.stdout), _Lossy(sys.stderr)

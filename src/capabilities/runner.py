@@ -196,7 +196,6 @@ def main() -> int:
     request = json.load(sys.stdin)
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     os.set_inheritable(request['reports'], False)
-    sys.stdout.reconfigure(line_buffering=True)     # type: ignore[union-attr]
     reports = _Reports(request['reports'])
     roslib.set_interactive(True)            # keeps roslaunch from setting signal handlers
     parent = None

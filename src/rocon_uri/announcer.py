@@ -6,6 +6,7 @@ A robot's end of the resource directory: it announces itself, and says goodbye w
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import threading
 import time
@@ -14,6 +15,7 @@ from typing import Optional, Union
 import rosgraph
 import rospy
 
+from capabilities import lossy_output
 from rocon_uri.announcement import check_key, check_lifetime
 from rocon_uri.exceptions import UnregisteredValue
 from rocon_uri.messages import to_msg
@@ -129,6 +131,21 @@ def _read(uri: Union[str, RoconURI, None]) -> RoconURI:
     return parse(uri, Vocabulary.open()) if isinstance(uri, str) else uri
 
 
+def start_node(name: str) -> None:
+    """
+    As ``rospy.init_node``; a signal ends the node, and its lines are in a file at once.
+
+    :param str name: of the node
+    :raises KeyboardInterrupt: if it is told to end meanwhile; like rospy.ROSInitException
+    """
+    lossy_output.install()
+    for number in signal.SIGINT, signal.SIGTERM:
+        # Until rospy has handlers of its own. That of Ubuntu 20.04 itself calls this one from
+        # them, and would fail if it were SIG_DFL.
+        signal.signal(number, signal.default_int_handler)
+    rospy.init_node(name)
+
+
 def no_master() -> str:
     """What a node says that was told to end while it waited for the master."""
     return 'ended before a ROS master answered at %s' % rosgraph.get_master_uri()
@@ -152,12 +169,12 @@ def main() -> int:
     try:
         if arguments.uri is not None:
             _warn_of_unregistered(arguments.uri)
-        rospy.init_node('announce')
+        start_node('announce')
         Announcer(arguments.uri, arguments.period, arguments.lifetime, arguments.key)
     except ValueError as error:
         print('announce: %s' % error, file=sys.stderr)
         return 2
-    except rospy.ROSInitException:
+    except (rospy.ROSInitException, KeyboardInterrupt):
         print('announce: %s' % no_master(), file=sys.stderr)
         return 2
     rospy.spin()

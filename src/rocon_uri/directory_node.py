@@ -7,7 +7,6 @@ only lies in the handshake. Who may talk to the master may take any name, as eve
 """
 from __future__ import annotations
 
-import io
 import os
 import sys
 import threading
@@ -17,7 +16,7 @@ import rosgraph
 import rospy
 
 from rocon_uri.announcement import Values
-from rocon_uri.announcer import TOPIC, no_master
+from rocon_uri.announcer import TOPIC, no_master, start_node
 from rocon_uri.apps.runnable import App, platform_uri
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.msg import Announcement, AppRobots, ResourceChange, Resources
@@ -227,15 +226,13 @@ def main() -> int:
         print('resource_directory: argument %s is not expected: it takes remappings only'
               % quoted(arguments[0]), file=sys.stderr)
         return 2
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(line_buffering=True)     # in a file, too, a line is there at once
     try:
-        rospy.init_node('resource_directory')
+        start_node('resource_directory')
         node = DirectoryNode()
     except (ImportError, NotImplementedError, OSError, ValueError) as error:
         print('resource_directory: %s' % ' '.join(str(error).split()), file=sys.stderr)
         return 2
-    except rospy.ROSInitException:
+    except (rospy.ROSInitException, KeyboardInterrupt):
         print('resource_directory: %s' % no_master(), file=sys.stderr)
         return 2
     return 0 if node.spin() else 1
