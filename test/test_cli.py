@@ -335,6 +335,8 @@ def test_remapping_arguments_are_ignored(argument, capsys):
 
 def test_remapping_arguments_are_those_of_rospy():
     names = pytest.importorskip('rosgraph.names')
+    if not hasattr(names, 'is_legal_remap'):
+        pytest.skip('an older rosgraph')
     from rocon_uri.cli import _without_remappings
     words = ['___a:=b', '_:=', ':=b', '1a:=b', 'a b:=c', 'a:=b\nc', 'a:b', '\xe4:=b', 'a\xe4:=b',
              'rocon:/pr2/bob', '--in:=x', '-a:=b', '~:=~', '/:=/', 'a:=b:=c']

@@ -78,6 +78,8 @@ def test_debian_releases_are_what_os_detect_calls_them():
         codenames.add(detector.get_codename())
     found = {name for name, above in registered('operating_system') if above[-1:] == ('debian',)}
     assert codenames - {''} - found == set()
+    if codenames == {''}:
+        pytest.skip('an older rospkg, which asks the system itself')
     assert {'bookworm', 'sid'} <= codenames
 
 

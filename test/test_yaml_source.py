@@ -135,7 +135,8 @@ def test_plain_scalars_have_the_types_of_safe_load(text):
     except YamlError as error:
         value = error
     if value == text.strip() and not isinstance(expected, str):     # what stays text here
-        assert value in ('=', '<<') or re.match('[0-9]{4}-', value)
+        # up to PyYAML 5.3 '._' was to be a number
+        assert value in ('=', '<<') or re.match(r'[0-9]{4}-|\._', value)
     elif isinstance(expected, Exception):
         assert isinstance(value, (YamlError, YamlMapping, YamlSequence))
     else:

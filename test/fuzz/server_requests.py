@@ -83,7 +83,7 @@ def check_request(server, name, texts, wire):
                 setattr(request, field, text)
             wire = serialized(request)
         request = service._request_class().deserialize(wire)
-    except (DeserializationError, UnicodeEncodeError):
+    except (DeserializationError, UnicodeError):
         return      # rospy's to refuse
     try:
         serialized(handler(request))
