@@ -29,11 +29,11 @@ LEVELS = (
     ('resource_index',),
     ('resource_database',),
     ('announcement', 'resource_directory'),
-    ('announcer', 'shared_directory'),
+    ('shared_directory',),
     ('apps',),
     ('workspace', 'spec_graph', 'spec_picture'),
     ('lint',),
-    ('cli', 'directory_node'),
+    ('cli', 'announcer', 'directory_node'),
     ('__main__',),
 )
 LEVEL_OF = {name: level for level, names in enumerate(LEVELS) for name in names}
