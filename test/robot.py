@@ -273,6 +273,7 @@ class Server:
     def bond(self):
         """A client: the bond that it made with the server, formed."""
         import rospy
+        import capabilities.needs_ros  # noqa: F401, without it bondpy is not found on Ubuntu 20.04
         from bondpy import bondpy
         bond = bondpy.Bond(self.name + '/bonds', self.call('establish_bond').bond_id)
         # All bonds of a process share a queue. Those of several clients would not.

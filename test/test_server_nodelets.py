@@ -50,10 +50,11 @@ def nodelets(tmp_path_factory):
         '  <export>\n', '  <depend>nodelet</depend>\n  <export>\n'
         '    <nodelet plugin="${prefix}/nodelets.xml"/>\n'))
     ros = Path(packages.find_node('nodelet', 'nodelet')[0]).resolve().parents[2]
+    is_of_ros_2 = ros == Path('/usr') and os.path.isdir('/usr/include/ament_index_cpp')
     (package / 'nodelets.xml').write_text(
         '<library path="%s"><class name="test_nodelet/Idle" type="test_nodelet::Idle" '
         'base_class_type="nodelet::Nodelet"/></library>\n' % (
-            'test_nodelet' if ros == Path('/usr') else 'lib/libtest_nodelet'))
+            'test_nodelet' if is_of_ros_2 else 'lib/libtest_nodelet'))
     (package / 'Idle.yaml').write_text(INTERFACE % 'Idle')
     (package / 'idle.yaml').write_text(
         'name: idle\nspec_version: 1\nspec_type: provider\nimplements: test_nodelet/Idle\n'

@@ -5,6 +5,8 @@ import threading
 import uuid
 from typing import Callable, Dict
 
+import capabilities.needs_ros  # noqa: F401
+
 from bond.msg import Status
 from bondpy import bondpy
 import rospy
