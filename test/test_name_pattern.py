@@ -223,6 +223,9 @@ def test_a_budget_says_what_a_comparison_took():
     other_way = Budget()
     assert not read('[xy]b.*').intersects(read('[xy]a(.{64}){60}'), other_way)
     assert 8 * 3840 < other_way.spent < 10 * 3840
+    both = Budget()
+    assert not read('[xy]a(.{64}){60}').intersects(read('[xy]b(.{64}){60}'), both)
+    assert 16 * 3840 < both.spent < 20 * 3840
     with pytest.raises(PatternTooComplex):
         read('.*a.{40}').intersects(read('.*b.{30}'), Budget(budget.spent // 5))
 

@@ -398,6 +398,7 @@ def test_comparing_ends_within_the_work_that_is_allowed(one, other):
 @pytest.mark.parametrize('positions, least, most', [
     (0, 0, 0), (1, 0, 0), (1 << 7, 0, 0), (1 << 4000, 0, 0), (0b101 << 100, 0, 1),
     (3 << 4000, 25, 35), (1 | 1 << 1000, 250, 265), (1 | 1 << 4000, 1000, 1040),
+    (1 << 2000 | 1 << 4000, 500, 540),
     ((1 << 4000) - 1, 1000, 1040)])
 def test_the_work_of_a_union_is_that_of_the_span_and_a_little_of_the_length(positions, least, most):
     assert least <= union_work(positions) <= most
@@ -425,6 +426,13 @@ def test_a_step_costs_the_unions_of_both_sides():
     assert 250 < work[1] - work[0] < 270
     assert 500 < work[2] - work[0] < 540
     assert work[3] - work[0] == work[1] + work[2] - 2 * work[0]
+
+
+def test_a_step_costs_an_operation_for_each_character_class():
+    every_letter = 'abcdefghijklmnopqrstuvwxyz'
+    product = Product(language(every_letter + '.{250}' * 12), language('.{250}' * 15))
+    list(product.successors(Step(None, '', 1, 1)))
+    assert 26 * product.cost < product.work < 40 * product.cost
 
 
 @pytest.fixture
@@ -466,6 +474,22 @@ def test_simulation_spares_the_walk_and_without_it_the_work_is_that_of_the_state
     product = Difference(language(one), language(other))
     assert product.find() is None
     assert 37 * len(steps) <= product.work <= 105 * len(steps)
+
+
+@pytest.mark.parametrize('one, other, least, most', [
+    ('k[xy](a|b)*a(a|b){250}', 'kx(.*[a-z].?){100}', WORK_LIMIT // 3, WORK_LIMIT // 2),
+    ('k[xy](.{1,255}a){15}', 'kx(.{1,255}a){15}', 0, 0),        # too many pairs to begin with it
+])
+def test_simulation_takes_at_most_half_of_the_work_that_is_allowed(one, other, least, most):
+    product = Difference(language(one), language(other))
+    assert product.find().text() == 'ky'
+    assert least < product.work < most + 1000       # what finding the name takes
+
+
+@pytest.mark.parametrize('count, expected', [(250, True), (251, False)])
+def test_inclusion_is_decided_where_simulation_takes_too_much_work(count, expected):
+    one, other = language('k(.*[a-z].?){%d}' % count), language('k[a-z]{250}')
+    assert includes(one, other) is expected
 
 
 @pytest.mark.parametrize('one, other', [
@@ -513,7 +537,7 @@ def test_the_memo_of_a_language_is_bounded_without_the_garbage_collector():
     try:
         for _ in range(100):
             found.matches(''.join(rng.choices('abc', k=255)))
-        found.matches(''.join(rng.choices('ab', k=5000)))
+        found.matches(''.join(rng.choices('ab', k=20000)))
         assert tracemalloc.get_traced_memory()[0] < 2e6
     finally:
         tracemalloc.stop()
