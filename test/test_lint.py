@@ -11,6 +11,7 @@ from made_packages import make_package
 from sources import ROOT
 
 from rocon_uri.sources.wording import quoted_path
+from rocon_uri.sources.yaml_data import YamlSequence
 from rocon_uri.lint import ERROR, WARNING, Finding, check_packages
 
 CORPUS = os.environ.get('ROCON_URI_CORPUS')
@@ -320,6 +321,14 @@ def test_providers(tmp_path, monkeypatch, text, finding):
     assert [line.partition(' (did you mean')[0] if finding and 'did you' not in finding else line
             for line in lines] == (
         [] if finding is None else ['providers/usb_camera.yaml:' + finding])
+
+
+def test_no_dependency_of_many_is_looked_for_in_their_list(tmp_path, monkeypatch):
+    monkeypatch.setattr(YamlSequence, 'index', None, raising=False)
+    lines = found(tmp_path, monkeypatch, interfaces__Camera_yaml=CAMERA,
+                  providers__usb_camera_yaml=USB_CAMERA + 'depends_on: [ours/A, ours/B]')
+    assert [line.partition(' ')[0] for line in lines] == [
+        'providers/usb_camera.yaml:5:14:', 'providers/usb_camera.yaml:5:22:']
 
 
 def test_a_provider_of_a_semantic_interface_may_be_preferred_for_what_it_redefines(

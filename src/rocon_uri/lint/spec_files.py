@@ -86,21 +86,21 @@ def _check_provider(spec: CapabilityProvider, source: CheckedMapping, file: Chec
         kinds = source.mapping('remappings')
         for kind in kinds:
             file.check_remapped_names(kind, kinds.mapping(kind, is_checked=False), interface)
-    for dependency in spec.dependencies.values():
-        _check_dependency(dependency, source, file, workspace)
+    for index, dependency in enumerate(spec.dependencies.values()):
+        _check_dependency(dependency, index, source, file, workspace)
     if spec.name in workspace.cycles:
         file.error(str(workspace.cycles[spec.name]), source.value_place('depends_on'), 'cycle')
 
 
-def _check_dependency(dependency: DependsOnRelationship, source: CheckedMapping, file: CheckedFile,
-                      workspace: Workspace) -> None:
+def _check_dependency(dependency: DependsOnRelationship, index: int, source: CheckedMapping,
+                      file: CheckedFile, workspace: Workspace) -> None:
     given = source.get('depends_on')
     name, preferred = dependency.capability_name, dependency.preferred_provider
     place = source.value_place('depends_on')
     if isinstance(given, dict):
         place = key_place(given, name)
     elif isinstance(given, list):
-        place = value_place(given, given.index(name))
+        place = value_place(given, index)
     file.check_exists(name, 'capability', workspace.capability_names, place, 'no-interface')
     if preferred is None:
         return
