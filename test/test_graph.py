@@ -426,11 +426,22 @@ def test_a_stop_drops_what_waits_and_waits_for_what_stops(robot):
     assert [name for told, name in robot.told if told == 'gone'] == ['Base', 'Base']
 
 
-def test_a_stop_waits_for_what_depends_on_it(robot):
+def test_a_stop_ends_all_wants_and_waits_for_what_depends_on_it(robot):
     robot.start('Patrol')
+    robot.use('Nav')
     waited_for = robot.graph.stop('Base')
     robot.carry_out()
     assert {instance.interface for instance in waited_for} == {'Base', 'Nav', 'Patrol'}
+    assert not any(instance.started or instance.bonds for instance in waited_for)
+
+
+def test_the_end_of_what_has_gone_already_changes_nothing(robot):
+    robot.start('Base')
+    gone = robot.graph.current('Base')
+    robot.end(gone)
+    robot.start('Base')
+    robot.graph.ended(gone, 1, 'exit 1')
+    assert robot.states() == {'Base': 'launching'} and robot.graph.failures == {}
 
 
 def test_free_of_what_waits_leaves_what_stops_alone(robot):

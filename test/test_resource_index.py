@@ -137,6 +137,11 @@ def test_what_is_neither_text_nor_uri_ends_adding(fleet):
     assert 'rocon:/pc/carol' in fleet and 'rocon:/pc/marvin' not in fleet
 
 
+def test_its_repr_says_how_many_resources_it_has(fleet):
+    assert repr(fleet) == '<ResourceIndex of 10 resources>'
+    assert repr(ResourceIndex(['rocon:/pc'])) == '<ResourceIndex of 1 resource>'
+
+
 def test_a_copy_is_another_index(fleet):
     fleet['rocon:/pc'] = ['payload']
     for other in (copy.copy(fleet), copy.deepcopy(fleet), pickle.loads(pickle.dumps(fleet))):
