@@ -391,6 +391,10 @@ def test_dependents_can_be_kept():
     robot.end(robot.graph.current('Base'))
     assert robot.states() == {'Nav': 'degraded', 'Patrol': 'launching'}
     assert robot.graph.current('Nav').notes == {'Base': 'Base, which it depends on, ended'}
+    robot.graph.restart(['Nav'])
+    robot.carry_out()
+    robot.end_stopped()
+    assert robot.states() == {'Nav': 'launching', 'Patrol': 'launching'}
 
 
 def test_a_use_of_what_stops_waits_for_its_end(robot):
