@@ -497,6 +497,15 @@ def test_a_restart_keeps_all_wants_and_the_order(robot):
     assert robot.graph.current('Nav').bonds == {'two': 1}
 
 
+def test_a_restart_leaves_alone_what_does_not_depend_on_it(robot):
+    robot.start('Patrol')
+    robot.graph.restart(['Camera'])
+    robot.carry_out()
+    robot.end_stopped()
+    assert [name for told, name in robot.told if told == 'terminated'] == ['Patrol', 'Camera']
+    assert robot.states() == dict.fromkeys(['Base', 'Nav', 'Camera', 'Patrol'], 'launching')
+
+
 def test_a_restart_keeps_the_names_that_uses_were_asked_for_by(robot):
     robot.graph.use('Left', [new_instance('Left', redefines='Good')], 'one', 'Left')
     robot.graph.use('Right', [new_instance('Right', redefines='Good')], 'one', 'Good')

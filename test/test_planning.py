@@ -126,6 +126,21 @@ def test_no_fault_is_looked_for_at_or_below_what_runs(lines: List[str]) -> None:
     assert (reasons(plan), steps(plan)) == ([], ['Base a +', 'Nav nav'])
 
 
+@pytest.mark.parametrize('lines', [['a Nav', 'b Nav'], ['Nav'], ['Base']])
+def test_what_runs_is_shared_where_nothing_could_be_chosen(lines: List[str]) -> None:
+    index = spec_index(*lines)
+    assert not plan_start(index, 'p/Nav').can_start
+    plan = plan_start(index, 'p/Nav', running=running('Nav a'))
+    assert (reasons(plan), steps(plan)) == ([], ['Nav a +'])
+
+
+def test_without_a_preference_what_runs_is_shared_before_the_default() -> None:
+    index = spec_index(*CAMERAS, 'camera Camera')
+    plan = plan_start(index, 'p/Camera', None, {'p/Camera': 'p/front'},
+                      running('Camera camera', 'Front front'))
+    assert steps(plan) == ['Camera camera +']
+
+
 def test_a_provider_that_is_asked_for_has_to_be_there_even_where_another_runs() -> None:
     for preferred in 'p/none', 'p/base':
         plan = plan_start(ROBOT, 'p/Nav', preferred, running=running('Nav nav'))

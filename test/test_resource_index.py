@@ -140,6 +140,7 @@ def test_what_is_neither_text_nor_uri_ends_adding(fleet):
 def test_its_repr_says_how_many_resources_it_has(fleet):
     assert repr(fleet) == '<ResourceIndex of 10 resources>'
     assert repr(ResourceIndex(['rocon:/pc'])) == '<ResourceIndex of 1 resource>'
+    assert repr(ResourceIndex()) == '<ResourceIndex of 0 resources>'
 
 
 def test_a_copy_is_another_index(fleet):
@@ -397,6 +398,8 @@ class TestVocabularies:
         for request in (parse('rocon:/newest', newest), parse('rocon:/*/bob', newest)):
             with pytest.raises(RoconURIValueError, match='their_robot'):
                 index.count(request)
+        index.add('rocon:/pr2')
+        assert list(index.find(parse('rocon:/', newest))) == list(index)
 
 
 PLATFORMS = ['*', 'pr2', 'kobuki', 'pr2|kobuki', 'kobuki|pr2', 'robot', 'phone|tablet', 'galaxy',
