@@ -356,6 +356,14 @@ def test_one_launch_file_cannot_run_twice(
     assert [str(fault) for fault in shared] == ([] if text is None else [text + repr(path)])
 
 
+def test_what_runs_may_be_any_iterable(ours: Path) -> None:
+    index = spec_index('nav Nav Base @good.launch', 'base Base', folder=str(ours))
+    runs = running('Base base @' + os.path.realpath(str(ours / 'good.launch')))
+    plan = plan_start(index, 'p/Nav', running=iter(runs), launch_files=LaunchFiles())
+    assert steps(plan) == ['Base base +', 'Nav nav']
+    assert [fault.running for fault in plan.faults] == ['p/base']
+
+
 def test_a_provider_that_needs_a_nodelet_manager_is_refused_without_one() -> None:
     index = spec_index('nav Nav Base', 'base Base !')
     assert plan_start(index, 'p/Nav').can_start
