@@ -98,6 +98,7 @@ class TestChoice:
         assert isinstance(fault, Fault)
         assert fault.kind is kind
         assert str(fault) == text
+        assert fault.is_default == ('default provider' in text)
 
     def test_a_fault_carries_its_parts(self) -> None:
         fault = choose_provider(CAMERAS, 'p/Camera', None, {'p/Camera': 'p/scanner'})
@@ -110,6 +111,11 @@ class TestChoice:
             'implements': 'p/Laser', 'candidates': ['p/left', 'p/right'],
             'semantic_candidates': [], 'cycle': [], 'launch_file': None, 'line': None,
             'column': None, 'sharers': [], 'running': None}
+
+    def test_a_provider_that_is_not_there_is_told_beside_those_that_are(self) -> None:
+        assert choose_provider(CAMERAS, 'p/Camera', 'p/none') == Fault(
+            FaultKind.UNKNOWN_PROVIDER, 'p/Camera', asked_for='p/Camera', provider='p/none',
+            candidates=('p/left', 'p/right'))
 
     def test_a_semantic_interface_has_providers_of_its_own(self) -> None:
         index = spec_index('camera Camera')
