@@ -21,7 +21,8 @@ version = release = xml.etree.ElementTree.parse(
 
 extensions = ['sphinx.ext.autodoc']
 autodoc_member_order = 'bysource'
-autodoc_default_options = {'members': True}
+autodoc_default_options = {'members': None}
+master_doc = 'index'     # Ubuntu 20.04's Sphinx looks for another
 default_role = 'py:obj'
 smartquotes = False     # '' is an empty text
 nitpicky = _sphinx_version >= (5, 3)      # Debian 12; older ones do not find all types
@@ -56,7 +57,7 @@ def _link_short_name(app, env, node, shown):
     if node.get('refdomain') != 'py':
         return None
     domain, last_name = env.get_domain('py'), node['reftarget'].rpartition('.')[2]
-    found = [full for full in domain.objects if full.endswith('.' + last_name)]
+    found = [full for full in domain.data['objects'] if full.endswith('.' + last_name)]
     if not found:
         return None
     near = node.get('py:module') or ''
