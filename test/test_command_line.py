@@ -36,11 +36,17 @@ def test_without_arguments_there_is_a_line_for_each_verb(capsys):
 
 @pytest.mark.parametrize('names, title', [
     ([], 'usage: rocon_uri '), (['match'], 'usage: rocon_uri match '),
+    (['help'], 'usage: rocon_uri '), (['-h', 'match', '--help'], 'usage: rocon_uri match '),
     (['specs', 'check'], 'usage: rocon_uri specs check '), (['json'], 'The JSON that each verb')])
 @pytest.mark.parametrize('word', ['help', '--help', '-h'])
 def test_help_is_asked_for_by_a_verb_or_an_option(word, names, title, capsys):
     assert main([word, *names]) == 0
     assert capsys.readouterr().out.startswith(title)
+
+
+def test_help_is_there_for_who_asks_for_json_first(capsys):
+    assert main(['--json', 'help', 'match']) == 0
+    assert capsys.readouterr().out.startswith('usage: rocon_uri match ')
 
 
 def test_the_forms_of_json_are_in_one_place(capsys):

@@ -35,6 +35,8 @@ __all__ = ['main']
 VERBS = ('parse', 'check', 'match', 'fields', 'rules', 'platform', 'apps', 'specs',
          'capabilities')
 
+_HELP = ('help', '--help', '-h')
+
 #: What verbs need beside Python: module, package of apt and of PyPI.
 _INSTALLED_BY = {'catkin_pkg': ('python3-catkin-pkg', 'catkin_pkg'),
                  'sqlalchemy': ('python3-sqlalchemy', 'SQLAlchemy'),
@@ -108,11 +110,11 @@ def _without_remappings(argv: Iterable[str]) -> List[str]:
 def _run(argv: List[str]) -> int:
     if '_ARGCOMPLETE' in os.environ:
         _complete(whole_parser(__doc__, VERBS))
-    if argv[:1] in (['help'], ['--help'], ['-h']):
-        return _help(argv[1:])
     shared = []
     while argv[:1] == ['--json']:   # it can also stand before the verb
         shared = [argv.pop(0)]
+    if argv and argv[0] in _HELP:
+        return _help([name for name in argv if name not in _HELP])
     if argv and argv[0] in VERBS:
         # The common case, without importing the other verbs and telling argparse of them.
         args = verb_parser(argv[0]).parse_args(shared + argv[1:])
