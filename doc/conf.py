@@ -1,4 +1,5 @@
 """How Sphinx builds the documentation: ``sphinx-build -W doc build/doc``."""
+import inspect
 import os
 import re
 import sys
@@ -67,7 +68,14 @@ def _link_short_name(app, env, node, shown):
                                node, shown)
 
 
+def _document_slot(app, what, name, found, options, lines):
+    """What `__slots__` says of an attribute; autodoc overlooks it in a class that inherits it."""
+    if inspect.ismemberdescriptor(found) and not any(lines):
+        lines[:] = [inspect.getdoc(found) or '']
+
+
 def setup(app):
     """Called by Sphinx."""
+    app.connect('autodoc-process-docstring', _document_slot)
     app.connect('missing-reference', _link_short_name)
     app.connect('doctree-resolved', _link_pages)

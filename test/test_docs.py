@@ -96,6 +96,7 @@ def test_sphinx_builds_it_without_a_warning(tmp_path):
     assert built.returncode == 0, built.stdout
     assert (tmp_path / 'index.html').exists()
     pages = {path.name: path.read_text(encoding='utf-8') for path in tmp_path.glob('*.html')}
+    assert 'The hardware, as' in pages['api.html']      # what only __slots__ says
     for name, text in pages.items():
         assert not re.search('&lt;[^&]*object(&gt;| at 0x)', text), name     # as a default
         for page, anchor in re.findall(r'href="(\w+\.\w+)(?:#([^"]*))?"', text):
