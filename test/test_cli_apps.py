@@ -55,6 +55,19 @@ def test_what_runs_is_listed_and_nothing_else(apps):
         'cannot run 5: --all, or the NAME of one, shows why'], '')
 
 
+def test_the_first_hundred_apps_have_near_misses(tmp_path, apps):
+    names = ['a%03d' % number for number in range(102)]
+    app = ("{compatibility: 'rocon:/', launch: a.launch, "
+           "required_capabilities: [{name: ours/Camra}]}")
+    make_package(tmp_path, 'ours', [('capability_interface', 'Camera.yaml'), *(
+        ('rocon_app', name + '.rapp') for name in names)],
+        Camera_yaml='name: Camera\nspec_version: 1\nspec_type: interface\ninterface: {}\n',
+        **{name + '_rapp': app for name in names})
+    _, lines, _ = apps('--robot', ROBOT, '--package-path', tmp_path, '--all')
+    reasons = [line for line in lines if 'no package exports this capability' in line]
+    assert ['ours/Camera' in reason for reason in reasons] == [True] * 100 + [False] * 2
+
+
 def test_all_says_what_does_not_run_and_why(apps):
     status, lines, _ = apps('--robot', ROBOT, '--package-path', EXAMPLES, '--all')
     text = '\n'.join(lines)

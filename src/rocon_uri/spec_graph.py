@@ -11,7 +11,7 @@ from typing import Collection, Dict, Iterable, Iterator, List, Mapping, NamedTup
 
 from capabilities.planning.faults import Fault, FaultKind
 from capabilities.planning.planner import Planner
-from rocon_uri.apps.runnable import App, Verdict, runnable
+from rocon_uri.apps.runnable import WITH_NEAR_MISSES, App, Verdict, runnable
 from rocon_uri.uri import RoconURI, parse
 from rocon_uri.workspace import Workspace
 
@@ -84,8 +84,9 @@ def spec_graph(exported: Workspace, robot: Optional[RoconURI] = None,
     """
     apps = [app for app in exported.apps() if not names or app.name in names]
     judged_for = robot or parse('rocon:/', exported.vocabulary)
-    verdicts = [runnable(app, judged_for, exported.spec_index, defaults, exported.launch_files)
-                for app in apps]
+    verdicts = [runnable(app, judged_for, exported.spec_index, defaults, exported.launch_files,
+                         near_misses=number < WITH_NEAR_MISSES)
+                for number, app in enumerate(apps)]
     nodes = {name: Node(name=name, kind=spec.spec_type.replace('_', ' '))
              for name, spec in exported.spec_index.specs.items()}
     for app in exported.apps():

@@ -7,6 +7,7 @@ requires can be started. The verdict has all reasons against it, not only the fi
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from enum import Enum
 from typing import Collection, Iterator, Mapping, NamedTuple, Optional, Tuple, Union
 
@@ -24,10 +25,14 @@ from rocon_uri.sources.wording import quoted
 from rocon_uri.uri import RoconURI, parse
 from rocon_uri.vocabulary import Vocabulary
 
-__all__ = ['REASON_IDS', 'App', 'Reason', 'ReasonKind', 'Verdict', 'platform_uri', 'runnable']
+__all__ = ['REASON_IDS', 'WITH_NEAR_MISSES', 'App', 'Reason', 'ReasonKind', 'Verdict',
+           'platform_uri', 'runnable']
 
 #: Either form of an app.
 App = Union[Rapp, AppFile]
+
+#: Of so many apps at once the reasons have near misses; with those of thousands it takes minutes.
+WITH_NEAR_MISSES = 100
 
 
 class ReasonKind(Enum):
@@ -113,7 +118,7 @@ class Verdict(NamedTuple):
 def runnable(app: App, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
              defaults: Optional[Mapping[str, str]] = None,
              launch_files: Optional[LaunchFiles] = None, ignore: Collection[str] = (),
-             robot_type: Optional[str] = None) -> Verdict:
+             robot_type: Optional[str] = None, near_misses: bool = True) -> Verdict:
     """
     Can this app run on this robot?
 
@@ -126,6 +131,8 @@ def runnable(app: App, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
     :param ignore: collection of str, the ids of the reasons to leave out, of `REASON_IDS`
     :param robot_type: str, what the platform of an `AppFile` is compared with if it is not
         registered; None for the robot's hardware_platform
+    :param bool near_misses: do the texts say what was probably meant by a capability that is not
+        there? To find it takes 10 us for each of those of its package, whenever the text is shown.
     :returns: `Verdict`
     :raises RoconURIValueError: if the robot's URI is not legal
 
@@ -148,9 +155,10 @@ def runnable(app: App, robot_uri: Union[str, RoconURI], spec_index: SpecIndex,
         launch_files)
     own = (_rapp_reasons(app, robot_uri, launch_files) if isinstance(app, Rapp) else
            _app_file_reasons(app, robot, robot_type, launch_files))
+    faults = plan.faults if near_misses else [replace(fault, known=()) for fault in plan.faults]
     reasons = (*own, *(Reason(kind=ReasonKind.CAPABILITY if fault.is_of_the_capability else
                               ReasonKind.DEPENDENCY, id=fault.kind.value, fault=fault)
-                       for fault in plan.faults))
+                       for fault in faults))
     return Verdict(app=app, reasons=tuple(reason for reason in reasons if reason.id not in ignore),
                    plan=plan,
                    ignored=tuple(reason for reason in reasons if reason.id in ignore))

@@ -3,7 +3,8 @@ from __future__ import annotations
 
 from typing import Dict, Iterator, List
 
-from rocon_uri.apps.runnable import App, Reason, ReasonKind, platform_uri, runnable
+from rocon_uri.apps.runnable import (
+    WITH_NEAR_MISSES, App, Reason, ReasonKind, platform_uri, runnable)
 from rocon_uri.cli.fleet_report import Column, FleetReport, write_fleet
 from rocon_uri.cli.given import GivenURI, shown_name
 from rocon_uri.cli.judged import read_robot
@@ -43,7 +44,8 @@ def write_app_report(args: argparse.Namespace, apps: List[App], exported: Worksp
         for app, uri in zip(apps, uris):
             if app.path not in same or uri is None and not is_ignored:
                 reasons = runnable(app, robot.uri, exported.spec_index, defaults,
-                                   exported.launch_files, args.ignore, args.robot_type).reasons
+                                   exported.launch_files, args.ignore, args.robot_type,
+                                   near_misses=len(same) < WITH_NEAR_MISSES).reasons
                 same[app.path] = [_line(reason) for reason in reasons
                                   if uri is None or reason.kind is not ReasonKind.PLATFORM]
             against.append(same[app.path])

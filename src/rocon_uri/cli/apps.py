@@ -118,12 +118,12 @@ def main(args: argparse.Namespace) -> int:
         if args.json:
             print_json({'robot': None, 'apps': [], 'errors': report.errors})
         return report.status or (0 if found else 1)
-    from rocon_uri.apps.rapps import runnable    # here, since it loads YAML
+    from rocon_uri.apps.runnable import WITH_NEAR_MISSES, runnable   # here, since it loads YAML
     running = what_runs(args, report)
     verdicts = [] if robot is None else [
         runnable(app, robot.uri, exported.spec_index, defaults, exported.launch_files, args.ignore,
-                 args.robot_type)
-        for app in apps]
+                 args.robot_type, near_misses=number < WITH_NEAR_MISSES)
+        for number, app in enumerate(apps)]
     if args.json:
         print_json({'robot': robot and robot.as_json(),
                     'apps': [_as_json(verdict, running, exported if args.names else None)
