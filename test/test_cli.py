@@ -240,6 +240,22 @@ def test_interrupted():
         assert process.stderr.read() == b''
 
 
+@pytest.mark.parametrize('script', ['scripts/rocon_uri', 'capabilities/scripts/capabilities'])
+def test_interrupted_before_it_has_begun(script):
+    interrupting = '''
+import runpy, sys
+class Interrupts:
+    def find_spec(self, name, path, target=None):
+        if name == 'rocon_uri.cli':
+            raise KeyboardInterrupt
+sys.meta_path.insert(0, Interrupts())
+runpy.run_path(sys.argv[1], run_name='__main__')
+'''
+    done = subprocess.run([sys.executable, '-c', interrupting, str(ROOT / script)],
+                          stderr=subprocess.PIPE)
+    assert done.returncode == 130 and done.stderr == b''
+
+
 # -- terminals -------------------------------------------------------------------------------------
 
 def run_on_terminal(*arguments, **changes):
