@@ -99,7 +99,8 @@ def test_unions_are_those_of_the_sets_that_are_selected(size):
     ('(a|)', 'a?'), ('(a*|)', 'a*'), ('a{1}', 'a'), ('a\\W?', 'a'), ('(a|b\\W)', 'a'),
     ('a(x{3}){0}', 'a'), ('(a{2}){3}', 'a{6}'), ('a(b(c|d))', 'ab[cd]'), ('[a-z]*' * 40, '[a-z]*'),
     ('[a-a]', 'a'), ('[Z-Z0-0]', '[Z0]'), ('[a-b]', '[ab]'), ('[ab-b]', '[ab]'),
-    ('(?:ab)', '(ab)'), ('^a$', 'a'), ('(a|(b|cc))', '([ab]|cc)'),
+    ('[a-zA-Z\\d_]', '.'), ('(){2}a', 'a'), ('(?:ab)', '(ab)'), ('^a$', 'a'),
+    ('(a|(b|cc))', '([ab]|cc)'),
 ])
 def test_the_syntax_tree_is_normal(text, equal):
     assert parse(text) == parse(equal)
@@ -197,6 +198,7 @@ REFUSED = [
     ('^a+|b$', (3, 4), "the or operator '|' is not for the name", "write '(a+|b)'"),
     ('(a', (0, 1), "'(' is not closed", ''),
     ('(a(b)', (0, 1), "'(' is not closed", ''),
+    ('b' + '(' * 33, (33, 34), 'groups are at most 32 deep', ''),
     ('a)', (1, 2), "')' closes no group", ''),
     ('ab)', (2, 3), "')' closes no group", ''),
     ('[0-9]+', (0, 6), "'[0-9]+' admits no name: a ROS name starts with a letter", ''),
@@ -323,6 +325,7 @@ def test_inclusion_is_an_order(languages, other):
     ('[a-m]+', '[k-z]+', 'overlap'), ('(aa)+', 'a(aa)*', 'disjoint'), ('a{3,}', '(aaa|a{5})a*',
                                                                        'equal'),
     ('\\D+', '[^0-9]{1,}', 'equal'), ('bob_\\d', 'bob_[^a-z]', 'subset'), ('a?b', 'b', 'superset'),
+    ('[0a]b', 'ab', 'equal'), ('[0a]b', '[0b]b', 'disjoint'),
 ])
 def test_relation_of_two_patterns(one, other, expected):
     assert relation(language(one), language(other)) == expected
