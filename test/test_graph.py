@@ -428,6 +428,8 @@ def test_a_stop_drops_what_waits_and_waits_for_what_stops(robot):
     robot.end_stopped()
     assert robot.states() == {}
     assert [name for told, name in robot.told if told == 'gone'] == ['Base', 'Base']
+    with pytest.raises(RefusedRequest, match="^No Capability 'Base' running$"):
+        robot.stop('Base')
 
 
 def test_a_stop_ends_all_wants_and_waits_for_what_depends_on_it(robot):
@@ -477,12 +479,13 @@ def test_of_several_semantic_interfaces_the_one_asked_for_by_that_name_is_freed(
     assert robot.graph.current('Left') is not None
 
 
-def test_the_interface_itself_is_freed_before_a_semantic_one(robot):
-    robot.graph.use('Sem', [new_instance('Sem', redefines='Good')], 'one', 'Good')
+@pytest.mark.parametrize('semantic', ['Front', 'Sem'])
+def test_the_interface_itself_is_freed_before_a_semantic_one(robot, semantic):
+    robot.graph.use(semantic, [new_instance(semantic, redefines='Good')], 'one', 'Good')
     robot.graph.use('Good', [new_instance('Good')], 'one', 'Good')
     robot.graph.free(''.join('Good'), 'one')    # another str, as from a message
     assert robot.graph.current('Good') is None
-    assert robot.graph.current('Sem') is not None
+    assert robot.graph.current(semantic) is not None
 
 
 def test_a_restart_keeps_all_wants_and_the_order(robot):
@@ -549,6 +552,7 @@ def test_a_failure_says_when_the_instance_had_gone():
         graph.ended(instance, 1, 'exit 1')
     assert {name: failure.since for name, failure in graph.failures.items()} == {
         'Base': 5.0, 'Nav': 8.0}
+    assert graph.failures['Nav'].text == 'Base, which it depends on, ended'
 
 
 def test_when_the_server_ends_nothing_more_is_started_or_stopped_one_by_one(robot):

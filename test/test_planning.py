@@ -361,7 +361,8 @@ def test_what_runs_may_be_any_iterable(ours: Path) -> None:
     runs = running('Base base @' + os.path.realpath(str(ours / 'good.launch')))
     plan = plan_start(index, 'p/Nav', running=iter(runs), launch_files=LaunchFiles())
     assert steps(plan) == ['Base base +', 'Nav nav']
-    assert [fault.running for fault in plan.faults] == ['p/base']
+    [fault] = plan.faults
+    assert (fault.running, fault.sharers) == ('p/base', ('p/base', 'p/nav'))
 
 
 def test_a_provider_that_needs_a_nodelet_manager_is_refused_without_one() -> None:
