@@ -66,6 +66,8 @@ def test_it_is_a_mapping_in_order_of_insertion(fleet):
         fleet['rocon:/pc/marvin']
     with pytest.raises(KeyError):
         del fleet['rocon:/pc/marvin']
+    del fleet['rocon:/pr2/bob/noetic/focal#apps/teleop']
+    assert list(fleet) == [parse(text) for text in FLEET[:-1]]
 
 
 def test_a_resource_without_payload_has_none():
