@@ -216,6 +216,8 @@ class TestPlan:
         assert [fault.cycle for fault in find_cycles(index)] == [
             ('p/a', 'p/b', 'p/a'), ('p/c', 'p/c')]
         assert find_cycles(spec_index_of(WORKSPACE)) == []
+        [fault] = find_cycles(spec_index('one A A=one', 'other A'))     # each provider is looked at
+        assert fault.cycle == ('p/one', 'p/one')
 
     def test_a_chain_may_be_long(self) -> None:
         length = 5000
