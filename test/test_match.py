@@ -96,7 +96,7 @@ def test_a_terminal_shows_how_far_it_is(file):
 
 
 def test_the_tqdm_of_ubuntu_which_knows_no_nrows_will_do(file):
-    pytest.importorskip('tqdm')
+    pytest.importorskip('tqdm', minversion='4.46')      # else it is that one
     older = '''
 import tqdm
 def older(init=tqdm.tqdm.__init__):
