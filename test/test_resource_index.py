@@ -101,9 +101,11 @@ def test_it_is_emptied_from_the_end(fleet):
 
 
 def test_what_is_found_are_the_resources_at_the_time_of_the_call(fleet):
-    found = fleet.find('rocon:/pr2')
-    fleet.clear()
-    assert len(list(found)) == 5
+    for change in fleet.popitem, fleet.clear:
+        expected = list(fleet.find('rocon:/pr2'))
+        found = fleet.find('rocon:/pr2')
+        change()
+        assert list(found) == expected
 
 
 def test_iteration_over_it_notices_changes_as_that_over_a_dict_does(fleet):
@@ -198,6 +200,9 @@ class TestUndecided:
         with pytest.raises(PatternTooComplex, match='2 resources') as raised:
             next(found)
         assert raised.value.undecided == [parse(self.HARD), parse(self.HARD + '#app')]
+        request = parse(self.REQUEST)
+        assert (raised.value.uri, raised.value.field, raised.value.value) == (
+            str(request), 'name', request.name.string)
 
     def test_any_is_true_if_one_matches_that_is_decided(self):
         index = ResourceIndex([self.HARD])
