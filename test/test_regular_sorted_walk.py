@@ -2,6 +2,7 @@
 import gc
 import itertools
 import tracemalloc
+from bisect import bisect_left
 
 import pytest
 
@@ -26,16 +27,20 @@ def test_names_in_order_are_matched_as_each_of_them_is(text):
     matches = pattern.matches_in_order()
     assert list(matches(NAMES)) == expected
     assert list(matches(NAMES[::3])) == expected[::3]
+    assert list(matches(NAMES[::99])) == expected[::99]
+    start, end = bisect_left(NAMES, 'ab'), bisect_left(NAMES, 'ac')
+    assert list(matches(NAMES[start:end])) == expected[start:end]
     assert list(matches([])) == []
 
 
-def test_names_that_are_decided_are_not_read():
+@pytest.mark.parametrize('text', ['[bc].*', '(b|c{9}).*'])
+def test_names_that_are_decided_are_not_read(text):
     class Unread(str):
         def __getitem__(self, index):
             raise AssertionError('somebody reads this name')
     names = ['a%04d' % number for number in range(1000)]
     unread = ['b%04d' % number for number in range(1000)]
-    matches = name_pattern.read('[bc].*').matches_in_order()
+    matches = name_pattern.read(text).matches_in_order()
     decided = matches(names + unread[:1] + list(map(Unread, unread[1:-1])) + unread[-1:])
     assert list(decided) == [False] * 1000 + [True] * 1000
 
