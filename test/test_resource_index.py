@@ -177,6 +177,17 @@ def test_names_are_found_after_every_change():
         check()
 
 
+@pytest.mark.parametrize('seed', range(10))
+def test_resources_of_one_name_are_discarded_in_any_order(seed):
+    index = ResourceIndex('rocon:/pr2/%s#apps/a%d' % ('al' if number % 7 else 'bob', number)
+                          for number in range(84))
+    uris = list(index.find('rocon:/pr2/bob'))
+    for uri in random.Random(seed).sample(uris, len(uris)):
+        index.discard(uri)
+        uris.remove(uri)
+        assert list(index.find('rocon:/pr2/bob')) == uris
+
+
 def test_many_names_that_end_alike():
     index = ResourceIndex('rocon:/pr2/%s_%d_left' % (name, number)
                           for number in range(100) for name in 'abcdefgh')
@@ -289,6 +300,11 @@ class TestBudget:
                               for platform in ('pr2', 'kobuki', 'pc') for app in ('', '#a/b'))
         assert index.count('rocon:/*/' + self.REQUEST) == 6
         assert len(products) == 2
+
+    def test_what_takes_work_to_tell_apart_is_not_undecided(self, products):
+        index = ResourceIndex(['rocon:/pr2/.*b.{12}', 'rocon:/pr2/.*[ab].{12}c'])
+        assert list(index.find('rocon:/*/.*a.{12}')) == [parse('rocon:/pr2/.*[ab].{12}c')]
+        assert len(products) > 2        # one at least was compared again, with more work
 
     def test_each_request_has_a_budget_of_its_own(self):
         index = ResourceIndex('rocon:/pr2/(a|b)*b(a|b){%d}' % (120 + number)
