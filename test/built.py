@@ -10,6 +10,10 @@ import pytest
 #: the packages that were built, as the tests are told by who built them
 PACKAGES = os.environ.get('ROCON_URI_BUILT', '').split(',')
 
+#: what rosbash has for bash, where Debian and where Ubuntu 20.04 has it; None where nobody has
+ROSBASH = next(filter(os.path.exists, ['/usr/share/bash-completion/completions/rosbash',
+                                       '/etc/bash_completion.d/rosbash']), None)
+
 
 def built(module: str) -> Any:
     """A module that catkin makes of messages. Tests that need it are skipped without a build."""

@@ -10,6 +10,7 @@ import sys
 import time
 
 import pytest
+from built import ROSBASH
 from sources import ROOT, SOURCE
 from terminal import open_terminal
 
@@ -18,7 +19,6 @@ from rocon_uri.cli.completion import uris
 SCRIPT = str(ROOT / 'scripts' / 'rocon_uri')
 COMPLETION = ROOT / 'completion' / 'rocon_uri'
 WORKSPACE = str(ROOT / 'examples' / 'workspace')
-ROSBASH = '/usr/share/bash-completion/completions/rosbash'
 PATIENCE = 60       # seconds after which a shell that says nothing is given up
 
 needs_bash = pytest.mark.skipif(
@@ -158,7 +158,7 @@ def test_tab_completes_in_zsh_after_the_documented_line(zsh):
 
 
 @needs_bash
-@pytest.mark.skipif(not os.path.exists(ROSBASH), reason='rosbash is not installed')
+@pytest.mark.skipif(ROSBASH is None, reason='rosbash is not installed')
 def test_tab_completes_behind_rosrun_and_leaves_all_else_to_rosbash(shell):
     shell.type('roscd cafe_car\t', 'cafe_cart/')
     shell.type('rosrun rocon_uri rocon_uri pla\t', 'rocon_uri platform ')
@@ -168,7 +168,7 @@ def test_tab_completes_behind_rosrun_and_leaves_all_else_to_rosbash(shell):
 
 
 @needs_bash
-@pytest.mark.skipif(not os.path.exists(ROSBASH), reason='rosbash is not installed')
+@pytest.mark.skipif(ROSBASH is None, reason='rosbash is not installed')
 def test_tab_completes_the_command_of_the_nested_package_behind_rosrun(shell):
     shell.type('roscd cafe_car\t', 'cafe_cart/')
     shell.type('rosrun capabilities capabilities statu\t', 'capabilities status ')

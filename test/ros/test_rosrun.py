@@ -8,10 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from built import unless_built
+from built import ROSBASH, unless_built
 
 EXAMPLES = Path(__file__).resolve().parents[2] / 'examples'
-ROSBASH = Path('/usr/share/bash-completion/completions/rosbash')
 
 
 def is_in_ros_package_path() -> bool:
@@ -37,12 +36,12 @@ def test_parse_shows_the_fields():
         assert value in done.stdout
 
 
-@pytest.mark.skipif(not ROSBASH.exists(), reason='rosbash is not installed')
+@pytest.mark.skipif(ROSBASH is None, reason='rosbash is not installed')
 def test_tab_offers_the_command_and_the_nodes():
     done = subprocess.run(
         ['bash', '-c', '. "$0"; COMP_WORDS=(rosrun rocon_uri ""); COMP_CWORD=2; COMP_LINE='
          '"rosrun rocon_uri "; "$(complete -p rosrun | sed "s/.*-F \\([^ ]*\\).*/\\1/")"; '
-         'printf "%s\n" "${COMPREPLY[@]}"', str(ROSBASH)],
+         'printf "%s\n" "${COMPREPLY[@]}"', ROSBASH],
         stdout=subprocess.PIPE, universal_newlines=True, check=True)
     assert sorted(set(done.stdout.split())) == ['announce', 'resource_directory', 'rocon_uri']
 
