@@ -13,7 +13,7 @@ from __future__ import annotations
 from capabilities.refused_specs import DuplicateNameException, InterfaceNameNotFoundException
 from capabilities.specs.common import InvalidSpec
 from rocon_uri.sources.located import with_id
-from rocon_uri.sources.wording import NamesByPart, quoted, quoted_path
+from rocon_uri.sources.wording import NamesByPart, NearMisses, quoted, quoted_path
 from rocon_uri.sources.yaml_data import value_place
 
 TYPE_CHECKING = False
@@ -31,10 +31,6 @@ if TYPE_CHECKING:
     Entries = Dict[str, Tuple[S, str]]      # what is there and its path, by name
 
 __all__ = ['DuplicateNameException', 'InterfaceNameNotFoundException', 'SpecIndex']
-
-#: How many names the errors of one index are compared with to find near misses, at up to 60 us
-#: each. Errors after that have none.
-_MAX_COMPARED = 20000
 
 
 def _view(made_by: Callable[[SpecIndex], T], doc: str) -> T:
@@ -62,7 +58,7 @@ class SpecIndex:
         # by provider and semantic interface, as it was when that was added
         self._refers_to: Dict[str, str] = {}
         self._names_like: Dict[str, NamesByPart] = {}      # by kind, as far as they were needed
-        self._compared = 0
+        self._near_misses = NearMisses()
 
     def __repr__(self) -> str:
         return '<SpecIndex: %d interfaces, %d semantic interfaces, %d providers>' % (
@@ -274,11 +270,10 @@ class SpecIndex:
         interface = getattr(spec, key)
         problem = '%s %s %s %s, which is not an interface that any package exports' % (
             spec.spec_type.replace('_', ' '), quoted(name), key, quoted(interface))
-        candidates = self.names_like(interface, kind)
-        self._compared += len(candidates)
+        candidates = self._near_misses.among(self.names_like(interface, kind))
         return InterfaceNameNotFoundException(
             problem, str(file_path), *value_place(spec.source, key), name, name.partition('/')[0],
-            spec.spec_type, interface, candidates if self._compared <= _MAX_COMPARED else ())
+            spec.spec_type, interface, candidates)
 
 
 def _specs(entries: Entries[S]) -> Dict[str, S]:

@@ -9,11 +9,12 @@ from capabilities.planning.plan import PlannedProvider, RunningProvider, StartPl
 from capabilities.planning.start_order import components, cycle_in
 from capabilities.spec_index import SpecIndex
 from capabilities.specs.provider import CapabilityProvider
+from rocon_uri.sources.wording import NearMisses
 
 __all__ = ['Planner']
 
-#: How many names one plan may be compared with to find near misses, at up to 60 us each. Faults
-#: that are met after that have none.
+#: How many names one plan may be compared with to find near misses. Faults that are met after that
+#: have none.
 _MAX_COMPARED = 5000
 
 
@@ -64,7 +65,7 @@ class Planner:
         self._first_need: Dict[_Instance, _Need] = {}
         self._preferences: Dict[str, Dict[str, None]] = {}      # of sets that keep their order
         self._faults: List[Fault] = []
-        self._compared = 0
+        self._near_misses = NearMisses(_MAX_COMPARED)
 
     def add(self, asked_for: str, preferred: Optional[str] = None) -> None:
         """Find an instance for a capability, and for all that it depends on."""
@@ -177,9 +178,7 @@ class Planner:
 
     def _alike(self, name: str, kind: str) -> Collection[str]:
         """The names among which a near miss is looked for: none after too many comparisons."""
-        names = self._spec_index.names_like(name, kind)
-        self._compared += len(names)
-        return names if self._compared <= _MAX_COMPARED else ()
+        return self._near_misses.among(self._spec_index.names_like(name, kind))
 
     def _candidates_for(self, capability: str) -> Tuple[str, ...]:
         if capability not in self._candidates:  # once, since many may depend on it

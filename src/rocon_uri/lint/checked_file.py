@@ -13,7 +13,7 @@ from rocon_uri.sources.launch_file import MISSING, LaunchFault, LaunchFiles
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.resources import not_a_path
 from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name
-from rocon_uri.sources.wording import NamesByPart, did_you_mean, near_misses, quoted
+from rocon_uri.sources.wording import NamesByPart, NearMisses, did_you_mean, quoted
 from rocon_uri.sources.yaml_data import split_lines
 from rocon_uri.sources.yaml_source import read_file
 from rocon_uri.uri import parse
@@ -22,7 +22,6 @@ from rocon_uri.vocabulary import Vocabulary
 __all__ = ['CheckedFile', 'is_inside']
 
 _SUGGESTING = 20    # findings: with more, no near misses are looked for, which takes long
-_MAX_COMPARED = 20000   # names, before which near misses are looked for: up to 1.2 s
 
 
 def is_inside(path: str, folder: str) -> bool:
@@ -58,7 +57,7 @@ class CheckedFile(Reading):
         self.package_folder = package_folder
         self.findings: List[Finding] = []
         self._lines: Optional[List[str]] = None
-        self._compared = 0
+        self._near_misses = NearMisses()
 
     def add(self, severity: str, problem: str, place: Place, fault_id: str) -> None:
         """Note a finding with a severity, `ERROR` or `WARNING`."""
@@ -204,9 +203,9 @@ class CheckedFile(Reading):
 
     def suggestion(self, text: str, candidates: Collection[str]) -> str:
         """The end of an error: what was probably meant. It is empty after many, or much work."""
-        self._compared += len(candidates)
-        is_looked_for = self._has_few_findings() and self._compared <= _MAX_COMPARED
-        return did_you_mean(near_misses(text, candidates)) if is_looked_for else ''
+        if not self._has_few_findings():
+            return ''
+        return did_you_mean(self._near_misses.of(text, candidates))
 
     def _has_few_findings(self) -> bool:
         return len(self.findings) < _SUGGESTING

@@ -15,12 +15,12 @@ import os
 import re
 import stat
 from functools import lru_cache
-from typing import Callable, Collection, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple
+from typing import Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple
 
 from rocon_uri.sources.packages import (
     MANIFEST, Package, PackageError, package_from_manifest)
 from rocon_uri.sources.walk import walk
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.sources.wording import NearMisses, did_you_mean, quoted
 
 __all__ = ['AMBIGUOUS', 'MISSING', 'NotAPath', 'Resource', 'Resources', 'not_a_path']
 
@@ -30,7 +30,6 @@ MISSING = 'missing'
 AMBIGUOUS = 'ambiguous'
 
 _MAX_NAMES = 200    # of files with one extension; among more no near miss is looked for
-_MAX_COMPARED = 20000   # names that are compared with misspelt ones; that takes half a second
 
 
 class Resource(NamedTuple):
@@ -61,7 +60,7 @@ class Resources:
     def __init__(self, packages: Mapping[str, Package]) -> None:
         self._packages = packages
         self._files: Dict[str, Dict[str, List[str]]] = {}
-        self._compared = 0
+        self._near_misses = NearMisses()
 
     def find(self, name: str, extension: str = '') -> Resource:
         """
@@ -93,7 +92,7 @@ class Resources:
                             problem='is not of the form package/file')
         package = self._packages.get(package_name)
         if package is None:
-            meant = did_you_mean(self._near_misses(package_name, self._packages))
+            meant = did_you_mean(self._near_misses.of(package_name, self._packages))
             return Resource(
                 name=name, path=None, kind=MISSING,
                 problem='does not exist: there is no package %s%s' % (quoted(package_name), meant))
@@ -126,14 +125,9 @@ class Resources:
         stem, own_extension = os.path.splitext(file + extension)
         stems = {os.path.splitext(other)[0] for other in self._files_of(package.folder)
                  if other.endswith(own_extension)}
-        near = self._near_misses(stem, stems) if len(stems) <= _MAX_NAMES else []
+        near = self._near_misses.of(stem, stems) if len(stems) <= _MAX_NAMES else []
         return ['%s/%s%s' % (package.name, other, '' if extension else own_extension)
                 for other in near]
-
-    def _near_misses(self, text: str, names: Collection[str]) -> List[str]:
-        """The names that are like a text; none after many comparisons, which take long."""
-        self._compared += len(names)
-        return near_misses(text, names) if self._compared <= _MAX_COMPARED else []
 
     def _files_of(self, folder: str) -> Dict[str, List[str]]:
         """The paths below the folder of a package by the name of the file."""

@@ -3,14 +3,14 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Dict, Iterable, List, Sequence
+    from typing import Collection, Dict, Iterable, List, Sequence
 
-__all__ = ['NamesByPart', 'did_you_mean', 'expectation', 'near_misses', 'near_parts', 'printable',
-           'quoted', 'quoted_path', 'shown', 'with_article']
+__all__ = ['NamesByPart', 'NearMisses', 'did_you_mean', 'expectation', 'near_misses',
+           'near_parts', 'printable', 'quoted', 'quoted_path', 'shown', 'with_article']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _FEW_NAMES = 500        # of which each is compared, at about 20 us
-_MAX_COMPARED = 20000   # names, before which a set of names has near misses: up to 1.2 s
+_MAX_COMPARED = 20000   # names, which takes up to 1.2 s
 _NEAR_LENGTH = 64       # characters: a longer text is not a typing error, and would take long
 
 
@@ -59,6 +59,29 @@ def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
     return [by_lower[name] for name in found or whole[:3]]
 
 
+class NearMisses:
+    """
+    The near misses of many texts, none after so many comparisons that they would take long.
+
+    :param int limit: how many names are compared with texts in all, at up to 60 us each
+
+    >>> NearMisses().of('turtelbot2', ['kobuki', 'turtlebot2'])
+    ['turtlebot2']
+    """
+
+    def __init__(self, limit: int = _MAX_COMPARED) -> None:
+        self._left = limit
+
+    def among(self, names: Collection[str]) -> Collection[str]:
+        """The names, to compare one text with later; none if there were too many."""
+        self._left -= len(names)
+        return names if self._left >= 0 else ()
+
+    def of(self, text: str, names: Collection[str]) -> List[str]:
+        """The `near_misses` of a text among names."""
+        return near_misses(text, self.among(names))
+
+
 class NamesByPart:
     """
     Names, ``package/name``, to look for the near misses of many names in.
@@ -73,7 +96,7 @@ class NamesByPart:
     def __init__(self, names: Iterable[str]) -> None:
         self._names = dict.fromkeys(names)
         self._by_part: Dict[str, List[str]] = {}    # once it is needed
-        self._compared = 0
+        self._near_misses = NearMisses()
 
     def __contains__(self, name: str) -> bool:
         return name in self._names
@@ -88,9 +111,7 @@ class NamesByPart:
 
     def near_misses(self, name: str) -> List[str]:
         """The `near_misses` among those that share a part with one; none after many comparisons."""
-        names = self._sharing_a_part(name)
-        self._compared += len(names)
-        return near_misses(name, names) if self._compared <= _MAX_COMPARED else []
+        return self._near_misses.of(name, self._sharing_a_part(name))
 
     def _sharing_a_part(self, name: str) -> List[str]:
         if not self._by_part:
