@@ -214,7 +214,7 @@ def test_a_fault_costs_only_the_file_that_it_is_in(workspace, monkeypatch, caplo
     expected = [
         ('%s:1:22: ' % (workspace / 'broken' / 'package.xml'), 'no element found'),
         ('%s:1:1: ' % (workspace / 'empty' / 'package.xml'), 'no element found'),
-        (str(workspace / 'nameless' / 'package.xml'), 'exactly one "name" tag'),
+        ('%s:1:1: ' % (workspace / 'nameless' / 'package.xml'), 'exactly one "name" tag'),
         (str(workspace / 'strange' / 'package.xml'), 'encoding'),
         ('%s:4:5: ' % (ours / 'star.yaml'), "'*' is not a ROS base name"),
         (str(ours / 'missing.yaml'), 'missing.yaml: cannot be read: No such file or directory'),

@@ -31,6 +31,8 @@ def exporting(text):
 
 @pytest.mark.parametrize('tag, meant', [
     ('rocon_apps', 'rocon_app'), ('rocon-app', 'rocon_app'), ('Rocon_App', 'rocon_app'),
+    ('RoconApp', 'rocon_app'), ('roconApp', 'rocon_app'), ('Rocon_Apps', 'rocon_app'),
+    ('CapabilityProvider', 'capability_provider'), ('CAPABILITY_INTERFACE', 'capability_interface'),
     ('rcon_app', 'rocon_app'), ('capability_interfaces', 'capability_interface'),
     ('capabilty_provider', 'capability_provider'), ('rocon_url', 'rocon_uri'),
     ('semantic_capabilty_interface', 'semantic_capability_interface'),
@@ -62,6 +64,9 @@ def test_the_tags_of_other_tools_are_none_of_ours(found, tag):
     ('<rocon_uri>a.yaml</rocon_uri>', "'<rocon_uri>' has text, which nobody sees (expected "
                                       "'<rocon_uri rules=\"a.yaml\"/>')"),
     ('<rocon_uri/>', "'<rocon_uri>' has no attribute 'rules'"),
+    ('<rocon_uri rules=""/>', "attribute 'rules' of '<rocon_uri>' is empty, expected a path"),
+    ('<app_manager app_dir=""/>',
+     "attribute 'app_dir' of '<app_manager>' is empty, expected a path"),
     ('<app_manager appdir="apps"/>', "'<app_manager>' has an unknown attribute 'appdir', expected "
                                      "'app_dir'"),
     ('<app_manager>apps</app_manager>', "'<app_manager>' has text, which nobody sees (expected "
@@ -98,6 +103,8 @@ def test_app_manager_asks_only_packages_that_depend_on_it(found, dependency, is_
      '<semantic_capability_interface>x.yaml</semantic_capability_interface>'),
     ('x_yaml', 'spec_type: interface\n', None),
     ('x_yaml', 'a: {spec_type: interface, spec_version: 1}\n', None),
+    ('x_yaml', SPEC % 'interfce', '<capability_interface>x.yaml</capability_interface>'),
+    ('x_yaml', SPEC % 'Provider', '<capability_provider>x.yaml</capability_provider>'),
     ('x_yaml', SPEC % 'other', None),
     ('x_yaml', 'hardware_platform: {robot: [x]}', None),
     ('x_yaml', '# spec_type, spec_version\n[', None),

@@ -12,6 +12,7 @@ from made_packages import make_package
 
 from rocon_uri.lint import check_packages
 from rocon_uri.sources import packages
+from rocon_uri.sources.located import Place
 from rocon_uri.sources.packages import (
     PackageError, as_package, find_packages, package_folders, package_from_manifest)
 
@@ -67,6 +68,20 @@ def test_a_faulty_manifest_is_refused_in_one_line(tmp_path: Path, manifest: str,
         read(tmp_path, manifest)
     assert problem in caught.value.problem
     assert str(caught.value).isprintable()
+    assert caught.value.line == 1
+
+
+@pytest.mark.parametrize('manifest, place', [
+    ('<package>\n  <name>a</name>\n  <name>b</name>\n</package>', (3, 3)),
+    ('<package>\n  <version>1</version>\n</package>', (1, 1)),
+    ('<package>\n  <version>1</version>\n  <name>a b</name>\n</package>', (3, 3)),
+    ('<?xml version="1.0"?>\n<robot/>', (2, 1)),
+    ('<?xml version="1.0"?>\n <package format="9"/>', (2, 2)),
+])
+def test_a_faulty_manifest_says_where(tmp_path: Path, manifest: str, place: Place) -> None:
+    with pytest.raises(PackageError) as caught:
+        read(tmp_path, manifest)
+    assert caught.value.place == place
 
 
 @pytest.mark.parametrize('encoding', ['utf-8', 'UTF-8', 'ISO-8859-1', 'us-ascii'])

@@ -62,11 +62,14 @@ def check_manifest(package: Package) -> List[Finding]:
 
 def _near_tags(tag: str) -> List[str]:
     """The exports that were probably meant; other tools' tags, like velocity_interface, are not."""
-    plain = tag.lower().replace('-', '_')
-    if plain in _TAGS:
-        return [plain]
-    near = near_misses(tag, _TAGS)
-    return [other for other in near if abs(len(other) - len(tag)) <= 2 and other[0] == tag[0]]
+    plain = _letters(tag)
+    same = [other for other in _TAGS if _letters(other) == plain]
+    return same or [other for other in near_misses(tag, _TAGS) if (
+        abs(len(other) - len(tag)) <= 2 and other[0] == tag[0].lower())]
+
+
+def _letters(tag: str) -> str:
+    return tag.lower().replace('-', '').replace('_', '')
 
 
 def _check_attributes(export: Export, file: CheckedFile) -> None:
@@ -86,6 +89,9 @@ def _check_attributes(export: Export, file: CheckedFile) -> None:
     elif expected is not None and not export.attributes:
         file.warn('%s has no attribute %s' % (quoted('<%s>' % export.tag), quoted(expected)),
                   place, 'export-attribute')
+    elif expected is not None and export.attributes.get(expected) == '':
+        file.warn('attribute %s of %s is empty, expected a path' % (
+            quoted(expected), quoted('<%s>' % export.tag)), place, 'export-attribute')
 
 
 def _check_app_dir(export: Export, package: Package, file: CheckedFile) -> None:

@@ -15,7 +15,7 @@ from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.finding import Finding
 from rocon_uri.lint.manifest import FILE_EXPORTS
 from rocon_uri.sources.packages import Package
-from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.wording import near_misses, quoted
 from rocon_uri.sources.yaml_data import YamlError
 from rocon_uri.sources.yaml_source import load, read_file
 
@@ -91,5 +91,8 @@ def _tag_of(path: str) -> str:
         data = load(content, path)
     except (OSError, YamlError):
         return ''
-    is_spec = isinstance(data, dict) and 'spec_version' in data
-    return _TAGS.get(str(data.get('spec_type')), '') if is_spec else ''
+    if not isinstance(data, dict) or 'spec_version' not in data:
+        return ''
+    spec_type = str(data.get('spec_type'))
+    return next((_TAGS[meant] for meant in [spec_type, *near_misses(spec_type, _TAGS)]
+                 if meant in _TAGS), '')

@@ -146,13 +146,15 @@ def package_from_manifest(path: str) -> Package:
     path = os.path.abspath(path)
     reader = _ManifestReader(path)
     reader.read(read_manifest(path))
-    names = [element.text for element in reader.elements]
+    names = reader.elements
     if len(names) != 1:
-        raise PackageError('The manifest must contain exactly one "name" tag', path)
-    if not _is_name(names[0]):
+        raise PackageError('The manifest must contain exactly one "name" tag', path,
+                           *(names[1].place if names else (1, 1)))
+    name = names[0].text
+    if not _is_name(name):
         raise PackageError('Package name %s does not follow naming conventions (letters, digits, _ '
-                           'and -)' % quoted(names[0]), path)
-    return Package(name=names[0], folder=os.path.dirname(path), manifest=path,
+                           'and -)' % quoted(name), path, *names[0].place)
+    return Package(name=name, folder=os.path.dirname(path), manifest=path,
                    exports=reader.exports)
 
 
@@ -206,10 +208,11 @@ class _ManifestReader:
 
     def _start(self, tag: str, attributes: Dict[str, str]) -> None:
         if self._depth == 0 and tag != 'package':
-            raise PackageError('The manifest must contain a single "package" root tag', self.path)
+            raise PackageError('The manifest must contain a single "package" root tag', self.path,
+                               *self._place())
         if self._depth == 0 and attributes.get('format', '1').strip() not in ('1', '2', '3'):
             raise PackageError('format version %s is unknown, expected 1, 2 or 3'
-                               % quoted(attributes['format']), self.path)
+                               % quoted(attributes['format']), self.path, *self._place())
         self._depth += 1
         if self._depth <= 2:
             if self._all or tag == 'name':
