@@ -255,7 +255,7 @@ def test_json_has_the_errors(apps_json, tmp_path):
     status, answer = apps_json('--robot', 'rocon:/zork', '--package-path', tmp_path)
     assert (status, answer['apps']) == (2, [])
     assert [(error['field'], error['line']) for error in answer['errors']] == [
-        (None, 1), ('hardware_platform', None)]
+        ('hardware_platform', None), (None, 1)]
 
 
 @needs_corpus
@@ -457,6 +457,68 @@ def test_the_faults_that_are_about_what_was_asked_are_shown(apps, tmp_path):
     status, _, err = apps('bad/dance', *given)
     assert status == 2 and "no app has the name 'bad/dance'" in err
     assert '%s:1:9: launch is 7, expected text' % (bad / 'dance.rapp') in err
+
+
+LEGS = '{name: Legs, spec_version: 1, spec_type: interface, interface: }'
+WALK = '{name: %s, spec_version: 1, spec_type: provider, %s: caps/Legs%s}'
+
+
+@pytest.mark.parametrize('broken, shown', [
+    # a provider that nobody names, and no other is there
+    ({'walk_yaml': WALK % ('walk', 'implement', '')}, 'walk.yaml'),
+    # it could have been: who knows
+    ({'walk_yaml': 'caps/Legs: ['}, 'walk.yaml'),
+    # a provider that is named
+    ({'walk_yaml': WALK % ('walk', 'implements', ', depends_on: {caps/Legs: {provider: caps/run}}'),
+      'run_yaml': '['}, 'run.yaml'),
+    # one of something else
+    ({'walk_yaml': '{name: walk, spec_version: 1, spec_type: provider, implements: caps/Arms}'},
+     None),
+    # one that is not needed
+    ({'walk_yaml': WALK % ('walk', 'implements', ''), 'run_yaml': '['}, None),
+])
+def test_the_fault_that_a_reason_comes_from_is_shown(apps, tmp_path, broken, shown):
+    make_package(tmp_path, 'caps', [
+        ('capability_interface', 'Legs.yaml'),
+        *(('capability_provider', name.replace('_', '.')) for name in broken)],
+        Legs_yaml=LEGS, **broken)
+    dance(tmp_path, '{compatibility: "rocon:/kobuki", launch: dance.launch, '
+                    'required_capabilities: [{name: caps/Legs}]}')
+    given = ('--robot', 'rocon:/kobuki', '--package-path', tmp_path)
+    for more in [], ['--json']:
+        err = apps('ours/dance', *given, *more)[2]
+        if shown is None:
+            assert err.startswith('1 file has faults: ')
+        else:
+            assert err.startswith('%s:' % (tmp_path / 'caps' / shown)) and err.count('\n') == 1
+    assert apps(*given)[2].startswith('1 file has faults: ')      # nothing was asked of an app
+
+
+def test_the_fault_of_an_ancestor_is_shown(apps, tmp_path):
+    make_package(tmp_path, 'ours', [('rocon_app', name + '.rapp') for name in 'abcx'],
+                 a_rapp='display: 7', b_rapp='parent_name: a', c_rapp='parent_name: ours/d',
+                 x_rapp='display: 7')
+    given = ('--robot', 'rocon:/kobuki', '--package-path', tmp_path)
+    _, _, err = apps('ours/b', *given)
+    assert [line.partition(': ')[0] for line in err.splitlines()[1:]] == [
+        '%s:1:10' % (tmp_path / 'ours' / 'a.rapp'), '%s:1:14' % (tmp_path / 'ours' / 'b.rapp'),
+        '2 files have faults']      # c and x
+
+
+def test_the_fault_of_a_rules_file_is_shown_where_a_value_is_not_registered(apps, tmp_path):
+    made = make_package(tmp_path, 'robots', rules_yaml='hardware_platform: {robot: [ours, 3d]}')
+    (made / 'package.xml').write_text((made / 'package.xml').read_text().replace(
+        '<export>', '<export><rocon_uri rules="rules.yaml"/>'))
+    dance(tmp_path, 'compatibility: rocon:/ours\nlaunch: dance.launch\n')
+    dance(tmp_path, name='theirs')
+    given, rules = ('--package-path', tmp_path), str(made / 'rules.yaml') + ':1:'
+    for arguments, is_shown in ((('--robot', 'rocon:/ours'), True),
+                                (('--robot', 'rocon:/kobuki'), False),
+                                (('ours/dance', '--robot', 'rocon:/kobuki'), True),
+                                (('theirs/dance', '--robot', 'rocon:/kobuki'), False)):
+        err = apps(*arguments, *given)[2]
+        assert (rules in err) is is_shown
+        assert ('1 file has faults: ' in err) is not is_shown
 
 
 def test_json_of_one_app_has_the_names_of_its_capabilities(apps_json):

@@ -132,6 +132,22 @@ def test_show_of_a_provider_looks_at_the_launch_files_that_it_needs(specs, tmp_p
     assert out.endswith("faults\n  provider 'ours/base': launch file 'no.launch' does not exist\n")
 
 
+def test_show_of_a_provider_has_the_fault_of_the_file_that_it_lacks(specs, tmp_path):
+    spec = 'spec_version: 1\nspec_type: %s\nname: %s\n'
+    make_package(
+        tmp_path, 'ours', [('capability_interface', 'Base.yaml'),
+                           ('capability_interface', 'Arm.yaml'),
+                           *(('capability_provider', name + '.yaml') for name in ('a', 'b', 'c'))],
+        Base_yaml=spec % ('interface', 'Base'), Arm_yaml=spec % ('interface', 'Arm'),
+        a_yaml=spec % ('provider', 'a') + 'implements: ours/Arm\ndepends_on: ours/Base\n',
+        b_yaml=spec % ('provider', 'b') + 'implement: ours/Base\n', c_yaml='[')
+    _, _, err = specs('show', 'ours/a', '--package-path', tmp_path)
+    assert err.startswith('%s:4:1: ' % (tmp_path / 'ours' / 'b.yaml'))
+    assert err.splitlines()[1].startswith('1 file has faults: ')
+    _, _, err = specs('show', 'ours/Base', '--package-path', tmp_path)
+    assert err.startswith('2 files have faults: ')
+
+
 @pytest.mark.parametrize('name, meant', [
     ('cafe_capabilities/MobleBase', "(did you mean 'cafe_capabilities/MobileBase'?)"),
     ('MobileBase', "(did you mean 'cafe_capabilities/MobileBase'?)"),

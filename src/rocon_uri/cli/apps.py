@@ -26,7 +26,7 @@ cell. It needs no network. Nothing else is printed.
 Exit status: 0 if an app runs, or each NAME does; 1 if not; 2 if the robot, a NAME,
 a folder or the FILE was bad, though the rest is judged, even for a robot that is
 not registered. Files with faults are counted, and "rocon_uri specs check" shows
-what is wrong; they spoil no answer.
+what is wrong; they spoil no answer. Faults that may be its cause are shown.
 JSON: {"robot": URI, "apps": [{"name", "form": "rapp" or "app", "display",
 "description", "compatibility", "platform", "file", "launch", "run", "runs": BOOL,
 "virtual": BOOL, "providers": [NAME, ...], "running": {CAPABILITY: PROVIDER, ...},
@@ -56,8 +56,8 @@ from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any, Dict, List, Optional, Sequence
-    from rocon_uri.apps.runnable import App, Reason, Verdict
+    from typing import Any, Dict, List, Optional
+    from rocon_uri.apps.runnable import Reason, Verdict
     from rocon_uri.cli.given import GivenURI
     from rocon_uri.workspace import Workspace
 
@@ -107,23 +107,28 @@ def main(args: argparse.Namespace) -> int:
         return 2
     report, exported = workspace(args)
     apps = named_apps(args.names, exported, report) if args.names else list(exported.apps())
-    mention_faults(args, report, exported, _asked_for(args.names, apps, exported))
     robot = None
     if args.html is None:
         robot = read_robot(args.robot, exported.vocabulary, report)
     defaults = read_defaults(args.defaults, report)
     if args.html is not None:
         from rocon_uri.cli.app_report import write_app_report
+        mention_faults(args, report, exported)
         found = write_app_report(args, apps, exported, defaults, report)
         if args.json:
             print_json({'robot': None, 'apps': [], 'errors': report.errors})
         return report.status or (0 if found else 1)
     from rocon_uri.apps.runnable import WITH_NEAR_MISSES, runnable   # here, since it loads YAML
+    from rocon_uri.cli.causes import is_rules_file, may_explain
     running = what_runs(args, report)
     verdicts = [] if robot is None else [
         runnable(app, robot.uri, exported.spec_index, defaults, exported.launch_files, args.ignore,
                  args.robot_type, near_misses=number < WITH_NEAR_MISSES)
         for number, app in enumerate(apps)]
+    is_unregistered = robot is not None and robot.uri.vocabulary is not exported.vocabulary
+    mention_faults(args, report, exported, lambda file: (
+        is_unregistered and is_rules_file(file, exported)
+        or bool(args.names) and may_explain(file, args.names, apps, verdicts, exported)))
     if args.json:
         print_json({'robot': robot and robot.as_json(),
                     'apps': [_as_json(verdict, running, exported if args.names else None)
@@ -139,16 +144,6 @@ def main(args: argparse.Namespace) -> int:
     if robot is not None:
         robot.mention_one_slash()
     return report.status or (0 if (all if args.names else any)(verdicts) else 1)
-
-
-def _asked_for(names: Sequence[str], apps: Sequence[App], exported: Workspace) -> List[str]:
-    """The apps that were asked for and the capabilities that they need, where faults hid them."""
-    if not names:
-        return []
-    found = {app.name for app in apps}
-    return [name for name in names if name not in found] + [
-        needed.name for app in apps for needed in app.required_capabilities
-        if needed.name not in exported.capabilities]
 
 
 def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool,

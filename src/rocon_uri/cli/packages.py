@@ -13,7 +13,7 @@ from rocon_uri.sources.wording import near_misses
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Collection, Iterable, List, Optional, Sequence, Tuple
+    from typing import Callable, Collection, List, Optional, Sequence, Tuple
 
     from rocon_uri.sources.located import Fault
     from rocon_uri.workspace import Workspace
@@ -119,20 +119,20 @@ def workspace(args: argparse.Namespace) -> Tuple[PackageReport, Workspace]:
 
 
 def mention_faults(args: argparse.Namespace, report: PackageReport, exported: Workspace,
-                   names: Iterable[str] = ()) -> None:
+                   is_cause: Callable[[str], bool] = lambda file: False) -> None:
     """
     Count the files with faults, which spoil no answer, and show the faults that are about it.
 
     :param args: those of the verb, which took `add_package_path`
     :param report: keeps all faults for JSON, and its status
     :param exported: what `workspace` returned
-    :param names: iterable of str, ``package/name``: what was asked for
+    :param is_cause: takes the path of a file: may its faults be why the answer is as it is?
     """
     others = {}
     for fault in exported.faults:
         message, file, line = fault_message(fault)
         report.keep(message, file, line)
-        if any(_may_define(name, file, exported) for name in names):
+        if file is not None and is_cause(file):
             say(message)
         else:
             others[file] = fault
@@ -145,16 +145,6 @@ def mention_faults(args: argparse.Namespace, report: PackageReport, exported: Wo
         say('%d %s: rocon_uri %s' % (
             len(others), 'file has faults' if len(others) == 1 else 'files have faults',
             ' '.join(map(shlex.quote, check))))
-
-
-def _may_define(name: str, file: str, exported: Workspace) -> bool:
-    """Can a file, which cannot be read, be that of an app or a spec of this name?"""
-    package, _, own_name = name.partition('/')
-    if package not in exported.packages or not file.startswith(
-            os.path.join(exported.packages[package].folder, '')):
-        return False
-    stem, extension = os.path.splitext(os.path.basename(file))
-    return stem == own_name or extension in ('.yaml', '.yml')
 
 
 def quiet_loggers() -> None:

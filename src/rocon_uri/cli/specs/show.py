@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     import argparse
     from typing import Dict, List, Optional, Sequence, Tuple
 
+    from capabilities.planning.faults import Fault
     from capabilities.spec_index import Spec, SpecIndex
     from capabilities.specs.interface import CapabilityInterface
     from capabilities.specs.provider import CapabilityProvider
@@ -51,8 +52,11 @@ def main(args: argparse.Namespace) -> int:
         suggestions = meant(args.name, index.names)
         report.bad('no spec has the name %s%s' % (quoted(args.name), did_you_mean(suggestions)),
                    suggestions=suggestions)
-    mention_faults(args, report, exported, [] if spec else [args.name])
+    from rocon_uri.cli.causes import may_cause, may_define      # here, since it loads YAML
     shown = Shown(spec, index, exported.launch_files)
+    mention_faults(args, report, exported, lambda file: (
+        spec is None and may_define(args.name, file, exported)
+        or any(may_cause(fault, file, exported) for fault in shown.plan_faults)))
     if args.json:
         print_json({
             'spec': spec and spec.to_dict(), 'spec_type': spec and spec.spec_type,
@@ -78,12 +82,14 @@ class Shown:
         self.resolved: Optional[CapabilityInterface] = None
         #: what to start for a provider, itself last, and what prevents that
         self.start_order: List[str] = []
+        self.plan_faults: List[Fault] = []
         self.faults: List[str] = []
         #: those of an interface or semantic interface
         self.providers = [] if spec is None else index.providers_of(spec.name)
         if isinstance(spec, CapabilityProvider):
             plan = plan_for_provider(index, spec.name, launch_files=launch_files)
-            self.start_order, self.faults = plan.order, list(map(str, plan.faults))
+            self.start_order, self.plan_faults = plan.order, plan.faults
+            self.faults = list(map(str, plan.faults))
         elif isinstance(spec, SemanticCapabilityInterface):
             try:
                 self.resolved = spec.resolve(index.interfaces[spec.redefines])
