@@ -28,11 +28,12 @@ one line of a YAML file, with a comment on that line:
 
    launch: dance.launch    # rocon_uri: ignore[launch-missing]
 
-In a package.xml or a launch file, the comment may also stand alone on the line above:
+In a package.xml or a launch file, the comment may also stand alone on the line above. What follows the
+``]`` may say why:
 
 .. code-block:: xml
 
-   <!-- rocon_uri: ignore[file-missing] -->
+   <!-- rocon_uri: ignore[file-missing] CMake makes it -->
    <rocon_app>rapps/dance.rapp</rocon_app>
 
 For whole files of a package, a file ``.rocon_uri.yaml`` beside its package.xml says it:
@@ -42,6 +43,8 @@ For whole files of a package, a file ``.rocon_uri.yaml`` beside its package.xml 
    ignore:
      - file-missing                    # in all files
      - 'unknown-key:rapps/*.rapp'      # in those; a * stands for slashes, too
+
+At most 1,000 items of it count, with at most 255 characters in a pattern of paths.
 '''
 
 

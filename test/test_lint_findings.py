@@ -4,6 +4,7 @@ from __future__ import annotations
 import ast
 import re
 import runpy
+from time import perf_counter
 
 import pytest
 from made_packages import make_package
@@ -99,6 +100,8 @@ def test_a_comment_ignores_what_is_found_on_its_line(tmp_path, monkeypatch, comm
     ('<rocon_app>no.rapp</rocon_app> <!-- rocon_uri: ignore[file-missing] -->', False),
     ('<!-- rocon_uri: ignore[file-missing] -->\n<rocon_app>no.rapp</rocon_app>', False),
     ('<!-- rocon_uri: ignore[file-missing] -->\n\n<rocon_app>no.rapp</rocon_app>', True),
+    ('<rocon_app>no.rapp</rocon_app> <!-- rocon_uri: ignore[file-missing] made later -->', False),
+    ('<!-- rocon_uri: ignore[file-missing] made later -->\n<rocon_app>no.rapp</rocon_app>', False),
     ('<rosdoc/><!-- rocon_uri: ignore[file-missing] -->\n<rocon_app>no.rapp</rocon_app>', True),
     ('<rocon_app>no.rapp</rocon_app>\n<!-- rocon_uri: ignore[file-missing] -->', True)])
 def test_in_xml_also_a_comment_above_ignores(tmp_path, monkeypatch, export, is_found):
@@ -141,6 +144,14 @@ def test_near_misses_among_many_names_are_looked_for_as_long_as_it_does_not_take
     ('', ['a/dance.rapp', 'b.rapp']), ('ignore: [launch-missing]', []),
     ('ignore:', ['a/dance.rapp', 'b.rapp']),
     ("ignore: ['launch-missing:*.rapp']", []), ("ignore: ['launch-missing:a/*']", ['b.rapp']),
+    ("ignore: ['launch-missing: a/*']", ['b.rapp']),
+    ("ignore: ['launch-missing:./a/*']", ['b.rapp']),
+    ("ignore: ['launch-missing:**/*.rapp']", []), ("ignore: ['launch-missing:**/b.*']", [
+        'a/dance.rapp']),
+    ("ignore: ['launch-missing:[ab]*']", []), ("ignore: ['launch-missing:?.rapp']", [
+        'a/dance.rapp']),
+    ("ignore: ['launch-missing:*a*.rapp']", ['b.rapp']),
+    ("ignore: ['launch-missing:*a*n*e*r']", ['a/dance.rapp', 'b.rapp']),
     ("ignore: ['launch-missing:dance.rapp']", ['a/dance.rapp', 'b.rapp']),
     ('ignore: [unknown-key]', ['a/dance.rapp', 'b.rapp'])])
 def test_a_package_says_what_is_ignored_in_its_files(tmp_path, monkeypatch, configuration, found):
@@ -155,11 +166,32 @@ def test_a_package_says_what_is_ignored_in_its_files(tmp_path, monkeypatch, conf
 
 @pytest.mark.parametrize('configuration, finding', [
     ('[', 'not-yaml'), ('- a', 'wrong-value'), ('ignore: cycle', 'wrong-value'),
-    ('ignore: [7]', 'wrong-value'), ('ignore: [launch-mising]', 'wrong-value'),
+    ('ignore: [7]', 'wrong-value'),
+    pytest.param("ignore: ['cycle:%s']" % (256 * 'a'), 'wrong-value', id='long'),
+    pytest.param('ignore: [%s]' % ', '.join(['cycle'] * 1001), 'wrong-value', id='many'),
+    ('ignore: [launch-mising]', 'wrong-value'),
     ('ingore: []', 'unknown-key')])
 def test_a_faulty_configuration_is_a_finding(tmp_path, monkeypatch, configuration, finding):
     (make_package(tmp_path, 'ours') / '.rocon_uri.yaml').write_text(configuration)
     assert ids(tmp_path, monkeypatch) == [('ours/.rocon_uri.yaml', finding)]
+
+
+def test_an_empty_range_of_characters_matches_nothing_or_is_a_finding(tmp_path, monkeypatch):
+    """As the Python of the day has it."""
+    (make_package(tmp_path, 'ours') / '.rocon_uri.yaml').write_text("ignore: ['cycle:[z-a]']")
+    assert set(ids(tmp_path, monkeypatch)) <= {('ours/.rocon_uri.yaml', 'wrong-value')}
+
+
+def test_what_is_ignored_takes_little_time_to_find_out(tmp_path, monkeypatch):
+    """Of the globs of a package and of its findings, both are a stranger's."""
+    folder = make_package(tmp_path, 'ours', [('rocon_app', '%s.rapp' % (100 * 'a'))])
+    (folder / ('%s.rapp' % (100 * 'a'))).write_text('{%s}' % ', '.join(
+        'key%d: 1' % number for number in range(3000)))
+    (folder / '.rocon_uri.yaml').write_text('ignore: [%s]' % ', '.join(
+        "'unknown-key:%s%d'" % (50 * '*a', number) for number in range(1000)))
+    begin = perf_counter()
+    assert len(ids(tmp_path, monkeypatch)) > 3000
+    assert perf_counter() - begin < 10      # it is one second
 
 
 # Each kind of finding, where it occurs

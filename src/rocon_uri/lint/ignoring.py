@@ -10,15 +10,20 @@ Which findings are not shown: those that are ignored on the command line, in a c
     ignore:                             # in .rocon_uri.yaml, for all files of the package
       - file-missing
       - 'unknown-key:rapps/*.rapp'      # for those files only; a * stands for slashes, too
+
+Matching a glob takes linear time, and each is compared once with each file that has such findings:
+what is in a package must not occupy whoever checks it.
 """
 from __future__ import annotations
 
 import os
 import re
-from fnmatch import fnmatchcase
-from typing import Collection, Dict, FrozenSet, Iterable, Iterator, List, NamedTuple, Tuple
+from fnmatch import translate
+from pathlib import PurePath
+from typing import (
+    Collection, Dict, FrozenSet, Iterable, Iterator, List, NamedTuple, Pattern, Tuple)
 
-from rocon_uri.lint.checked_file import CheckedFile, is_inside
+from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.explanations import EXPLANATIONS
 from rocon_uri.lint.finding import Finding
 from rocon_uri.lint.source_lines import SourceLines, is_xml
@@ -30,8 +35,11 @@ __all__ = ['CONFIGURATION', 'Ignored', 'read_configuration', 'without_ignored']
 #: the file in the folder of a package that says what is ignored in its files
 CONFIGURATION = '.rocon_uri.yaml'
 
+_MAX_ITEMS = 1000   # of a configuration
+_MAX_GLOB = 255     # characters
+
 _ids_in_yaml = re.compile(r'#\s*rocon_uri:\s*ignore\[([^][]*)\]').findall
-_ids_in_xml = re.compile(r'<!--\s*rocon_uri:\s*ignore\[([^][]*)\]\s*-->').findall
+_ids_in_xml = re.compile(r'<!--\s*rocon_uri:\s*ignore\[([^][]*)\](?:(?!-->).)*-->').findall
 _is_xml_comment = re.compile(r'\s*<!--((?!-->).)*-->\s*').fullmatch
 
 
@@ -42,19 +50,8 @@ class Ignored(NamedTuple):
     folder: str
     #: their id
     id: str
-    #: the files that they are in: a pattern of paths relative to the folder
-    glob: str
-
-    def covers(self, finding: Finding) -> bool:
-        """
-        Is this finding, whose file has an absolute path, one of them?
-
-        >>> finding = Finding('/ours/a/dance.rapp', 1, 1, 'error', 'icon ...', 'file-missing')
-        >>> Ignored('/ours', 'file-missing', 'a/*.rapp').covers(finding)
-        True
-        """
-        return (finding.id == self.id and is_inside(finding.file_name, self.folder)
-                and fnmatchcase(os.path.relpath(finding.file_name, self.folder), self.glob))
+    #: matches the paths of the files that they are in, relative to the folder
+    glob: Pattern[str]
 
 
 def read_configuration(package_folder: str) -> Tuple[List[Ignored], List[Finding]]:
@@ -74,9 +71,19 @@ def read_configuration(package_folder: str) -> Tuple[List[Ignored], List[Finding
     ignored = []
     for index, entry in enumerate(entries):
         place = value_place(entries, index)
-        fault_id, _, glob = file.text(entry, 'an item of ignore', place).partition(':')
+        if index == _MAX_ITEMS:
+            file.error('ignore has %d items, of which only %d count' % (len(entries), _MAX_ITEMS),
+                       place, 'wrong-value')
+            break
+        fault_id, glob = map(str.strip, file.text(entry, 'an item of ignore', place).partition(
+            ':')[::2])
         if fault_id in EXPLANATIONS:
-            ignored.append(Ignored(folder=package_folder, id=fault_id, glob=glob or '*'))
+            try:
+                ignored.append(Ignored(
+                    folder=package_folder, id=fault_id, glob=_compiled(glob or '*')))
+            except re.error as error:
+                file.error('%s is not a pattern of paths: %s' % (quoted(glob), error.msg), place,
+                           'wrong-value')
         elif fault_id:
             file.warn('%s is not the id of a finding%s' % (
                 quoted(fault_id), file.suggestion(fault_id, EXPLANATIONS)), place,
@@ -96,14 +103,50 @@ def without_ignored(findings: Iterable[Finding], ids: Collection[str],
     >>> list(without_ignored([Finding('/a', 1, 1, 'error', 'no', 'cycle')], ['cycle'], []))
     []
     """
-    comments = _Comments()
-    by_id: Dict[str, List[Ignored]] = {}
-    for ignored in configured:
-        by_id.setdefault(ignored.id, []).append(ignored)
+    comments, configurations = _Comments(), _Configurations(configured)
     for finding in findings:
         if not (finding.id in ids or finding.id in comments.ids(finding)
-                or any(ignored.covers(finding) for ignored in by_id.get(finding.id, ()))):
+                or configurations.cover(finding.file_name, finding.id)):
             yield finding
+
+
+class _Configurations:
+    """What packages ignore in their files."""
+
+    def __init__(self, ignored: Iterable[Ignored]) -> None:
+        self._globs: Dict[Tuple[str, str], List[Pattern[str]]] = {}     # by folder and id
+        self._covered: Dict[Tuple[str, str], bool] = {}                 # by file and id
+        for folder, fault_id, glob in ignored:
+            self._globs.setdefault((folder, fault_id), []).append(glob)
+
+    def cover(self, path: str, fault_id: str) -> bool:
+        """Are the findings with this id in a file ignored?"""
+        key = path, fault_id
+        if key not in self._covered:
+            self._covered[key] = any(
+                glob.match(os.path.relpath(path, folder))
+                for folder in map(str, PurePath(os.path.normpath(path)).parents)
+                for glob in self._globs.get((folder, fault_id), ()))
+        return self._covered[key]
+
+
+def _compiled(glob: str) -> Pattern[str]:
+    """
+    A glob as a regular expression; re.error if it is not one, as of ``[z-a]``, or is too long.
+
+    >>> [bool(_compiled('**/a*.rapp').match(path)) for path in ('ab.rapp', 'x/y/a.rapp', 'ba.rapp')]
+    [True, True, False]
+    """
+    if len(glob) > _MAX_GLOB:
+        raise re.error('it has more than %d characters' % _MAX_GLOB)
+    glob = glob[2:] if glob.startswith('./') else glob
+    folders, glob = ('(?:.*/)?', glob[3:]) if glob.startswith('**/') else ('', glob)
+    # What a * stands for is not tried again once the text after it was found. fnmatch does the same
+    # from Python 3.9 on, and takes exponential time before.
+    first, *others = [translate(part)[:-2] for part in re.split(r'\*+', glob)]  # without its \Z
+    middle = ''.join('(?=(?P<g%d>.*?%s))(?P=g%d)' % (number, part, number)
+                     for number, part in enumerate(others[:-1]))
+    return re.compile(folders + first + middle + '.*'.join(['', *others[-1:]]) + r'\Z', re.DOTALL)
 
 
 class _Comments:
