@@ -184,8 +184,9 @@ no provider implements it
         path = quoted_path(str(self.launch_file))
         if self.running is not None:
             others = [provider for provider in self.sharers if provider != self.running]
-            return 'provider %s has the launch file of %s, which runs already: %s' % (
-                ' and '.join(map(quoted, others)), quoted(self.running), path)
+            have = 'provider %s has' if len(others) == 1 else 'providers %s have'
+            return '%s the launch file of %s, which runs already: %s' % (
+                have % ' and '.join(map(quoted, others)), quoted(self.running), path)
         return 'providers %s have one launch file, which cannot run twice: %s' % (
             ' and '.join(map(quoted, self.sharers)), path)
 
