@@ -244,6 +244,8 @@ def test_an_error_has_no_other_behind_it():
     ('rocon:/pr2,(kobuki|fetch)', 'pr2,(kobuki', 'alternatives have a | between them'),
     ('rocon:/*/*/*/20.04', '20.04', 'a release has the name that is registered for it'),
     ('rocon:/*/*/*/ubuntu20.04', 'ubuntu20.04', 'a release has the name that is registered'),
+    ('rocon:/*/*/*/focal+', 'focal+', 'only the name can be a pattern'),
+    ('rocon:/pr2,', 'pr2,', 'a value is a letter, then letters, digits and _'),
     ('rocon:/turtlebot-2', 'turtlebot-2', 'a value is a letter, then letters, digits and _'),
     ('rocon:/' + 'b' * 256, 'b' * 256, 'at most 255 characters'),
 ])
@@ -274,5 +276,10 @@ def test_a_value_is_also_looked_for_by_its_parts():
     assert error_of('rocon:/nao').suggestions == ['aldebaran_nao']
     assert error_of('rocon:/my_pr2').suggestions == ['pr2']
     assert error_of('rocon:/my_own').suggestions == []
+    assert error_of('rocon:/my-nao').suggestions == []
+    assert error_of('rocon:/*/*/*/ubuntu-focal').suggestions == ['focal', 'ubuntu']
+    assert error_of('rocon:/*/*/ros.noetic').suggestions == ['noetic', 'ros']
+    assert error_of('rocon:/pr2&kobuki').suggestions == ['kobuki', 'pr2']
+    assert error_of('rocon:/+').suggestions == []
     again = pickle.loads(pickle.dumps(error_of('rocon:/nao')))
     assert again.suggestions == ['aldebaran_nao']

@@ -87,9 +87,9 @@ def _what_to_write(text: str, value: str, known: FieldVocabulary) -> str:
     advice = 'a value is a letter, then letters, digits and _'
     if len(value) > NAME_LIMIT:
         return advice + ', at most %d characters' % NAME_LIMIT
-    values = re.split('[][(){},;&+*?^$ ]+', text.strip('(){}[]*?+^$'))
+    values = list(filter(None, re.split('[][(){},;&+*?^$ ]+', text)))
     stem = value.strip('(){}[]*?+.^$')
-    if re.search('[,;&+ ]', value):
+    if re.search('[,;&+ ]', value) and len(values) > 1:
         return advice + '; alternatives have a | between them: %s' % quoted('|'.join(values))
     if re.search(r'\d\.\d', value):
         return advice + '; a release has the name that is registered for it, not its number'

@@ -53,9 +53,14 @@ class RoconURIValueError(ValueError):
 
     @property
     def suggestions(self) -> List[str]:
-        """What was probably meant: a list of at most three str, the likeliest first."""
-        candidates = self._candidates() if callable(self._candidates) else self._candidates
-        return near_misses(self.value, candidates)
+        """
+        What was probably meant: a list of at most three str, the likeliest first.
+
+        Near misses by letters come before those by the parts of a name.
+        """
+        candidates = list(self._candidates() if callable(self._candidates) else self._candidates)
+        return list(dict.fromkeys(near_misses(self.value, candidates)
+                                  + near_parts(self.value, candidates)))[:3]
 
     def within(self, uri: str, span: Tuple[int, int]) -> 'RoconURIValueError':
         """An error of the same class, placed at a span of a larger text."""
@@ -106,13 +111,6 @@ class RoconURIValueError(ValueError):
 
 class UnregisteredValue(RoconURIValueError):
     """A value that the vocabulary does not have; a more complete one may."""
-
-    @property
-    def suggestions(self) -> List[str]:
-        """Near misses by letters, then by the parts between underscores; as in the base class."""
-        candidates = list(self._candidates() if callable(self._candidates) else self._candidates)
-        return list(dict.fromkeys(near_misses(self.value, candidates)
-                                  + near_parts(self.value, candidates)))[:3]
 
 
 class PatternTooComplex(RoconURIValueError):

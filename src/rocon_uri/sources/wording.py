@@ -1,6 +1,8 @@
 """How a text is shown in an error, and what was probably meant by it."""
 from __future__ import annotations
 
+import re
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Collection, Dict, Iterable, List, Sequence
@@ -130,12 +132,14 @@ def near_parts(text: str, candidates: Iterable[str]) -> List[str]:
     """
     The candidates whose parts between underscores contain, or are contained in, those of a text.
 
-    >>> near_parts('nao', ['aldebaran_nao', 'nano']), near_parts('my_pr2', ['pr2', 'pr2_other'])
+    What cannot stand in a name separates parts of the text, too.
+
+    >>> near_parts('nao', ['aldebaran_nao', 'nano']), near_parts('my-pr2', ['pr2', 'pr2_other'])
     (['aldebaran_nao'], ['pr2'])
     """
-    if len(text) > _NEAR_LENGTH:
+    parts = set(re.findall('[a-z0-9]+', text.lower()))
+    if not parts or len(text) > _NEAR_LENGTH:
         return []
-    parts = set(text.lower().split('_'))
     found = [(len(parts ^ others), candidate) for candidate in candidates
              for others in [set(candidate.lower().split('_'))]
              if parts <= others or others <= parts]
