@@ -151,6 +151,23 @@ def test_a_fault_of_many_lines_is_said_once_and_counted(tmp_path, capsys):
     assert errors[-1].endswith('also on line 1008')
 
 
+@pytest.mark.parametrize('line, kind', [
+    ('zork %d', 'a rocon URI has no white space (U+0020)'),
+    ('zork_%d', "does not start with 'rocon:'"),
+    ('rocon:/pr2/bob-%d', "'-' cannot stand in a ROS name, which has only letters, digits and '_'"),
+    ('rocon:/pr2/%dbob', 'a ROS name starts with a letter'),
+    ('rocon:/pr2/b%%FF%d', 'name: its percent-escapes are not UTF-8'),
+    ('rocon://b-%d/pr2', 'concert_name is not a ROS base name'),
+    ('rocon:/pr2#a/b/c%d', 'rocon_app is not of the form package/name or name'),
+])
+def test_a_kind_of_fault_is_the_same_with_every_name(line, kind, tmp_path, capsys):
+    content = ''.join(line % number + '\n' for number in range(100)).encode()
+    _, (first, others) = errors_of(content, tmp_path, capsys)
+    assert first.startswith('fleet.txt:1: ')
+    assert others.startswith('fleet.txt: ') and kind in others
+    assert others.endswith(', also on lines 2, 3, 4, 5, 6 and 94 more')
+
+
 def test_as_json_they_are_an_error_too(tmp_path, capsys):
     printed, _ = errors_of(b'rocon:/our_robot\n' * 20, tmp_path, capsys, '--json')
     errors = json.loads(printed)['errors']

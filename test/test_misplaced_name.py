@@ -51,3 +51,19 @@ def test_parse_and_check_mention_it(arguments, capsys):
     assert capsys.readouterr().err == (
         "rocon_uri: note: in 'rocon:/pc/kitkat', name 'kitkat' is an operating_system "
         "(did you mean 'rocon:/pc/*/*/kitkat'?)\n")
+
+
+def test_parse_mentions_one_of_a_kind_and_counts_the_others(tmp_path, capsys):
+    path = tmp_path / 'fleet.txt'
+    path.write_text('rocon:/pc/kitkat\nrocon:/pr2/kitkat\nrocon:/pc/focal\nrocon://pc/bob\n'
+                    + ''.join('rocon://pc/bob_%d\n' % number for number in range(50)))
+    assert main(['parse', '--quiet', 'rocon:/*/kitkat', '--in', str(path)]) == 0
+    assert capsys.readouterr().err.splitlines() == [
+        "rocon_uri: note: in 'rocon:/*/kitkat', name 'kitkat' is an operating_system "
+        "(did you mean 'rocon:/*/*/*/kitkat'?)",
+        "rocon_uri: note: in 'rocon:/pc/focal', name 'focal' is an operating_system "
+        "(did you mean 'rocon:/pc/*/*/focal'?)",
+        "rocon_uri: note: 'rocon://pc/bob' is read as 'rocon:/pc/bob', since pc is a "
+        'hardware_platform, not a concert',
+        "rocon_uri: note: name 'kitkat' is an operating_system, also in 2 other URIs",
+        'rocon_uri: note: pc is a hardware_platform, not a concert, also in 50 other URIs']

@@ -6,6 +6,7 @@ Such a URI is legal. Those who show URIs to people mention it, since it can hide
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 
 from rocon_uri.grammar import VOCABULARY_FIELDS
 from rocon_uri.sources.wording import did_you_mean, quoted, with_article
@@ -13,7 +14,7 @@ from rocon_uri.vocabulary import RULES_FOLDER, Vocabulary
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Optional
+    from typing import FrozenSet, Optional
     from rocon_uri.uri import RoconURI
 
 __all__ = ['misplaced_name']
@@ -50,8 +51,11 @@ def misplaced_name(uri: RoconURI) -> Optional[str]:
 
 
 def _is_first_name(name: str, vocabulary: Vocabulary) -> bool:
+    return name in vocabulary.field('operating_system').children('mint') or name in _first_names()
+
+
+@lru_cache(maxsize=None)
+def _first_names() -> FrozenSet[str]:
     import json     # here, since few names are values
-    if name in vocabulary.field('operating_system').children('mint'):
-        return True
     with open(os.path.join(RULES_FOLDER, 'first_names.json'), encoding='ascii') as file:
-        return name in json.load(file)
+        return frozenset(json.load(file))

@@ -47,6 +47,7 @@ from rocon_uri.cli.completion import app_names, offer, uris
 from rocon_uri.cli.display import fields_as_json, painter, print_json
 from rocon_uri.cli.given import say
 from rocon_uri.cli.judged import add_defaults, named_apps, read_defaults, read_robot
+from rocon_uri.cli.notes import Notes
 from rocon_uri.cli.packages import (
     add_package_path, mention_faults, printable, shortened, shown_path, workspace)
 from rocon_uri.cli.running import add_running, what_runs
@@ -142,7 +143,7 @@ def main(args: argparse.Namespace) -> int:
     elif robot is not None:
         _show(robot, verdicts, args.all, running)
     if robot is not None:
-        robot.mention_one_slash()
+        Notes().mention_one_slash(robot)
     return report.status or (0 if (all if args.names else any)(verdicts) else 1)
 
 

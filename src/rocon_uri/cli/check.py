@@ -22,6 +22,7 @@ from __future__ import annotations
 from rocon_uri.cli.completion import offer, uris
 from rocon_uri.cli.display import fields_as_json, painter, print_json
 from rocon_uri.cli.given import GivenURI, Report, say
+from rocon_uri.cli.notes import Notes
 from rocon_uri.compatibility import Relation, explain, is_compatible, relation
 from rocon_uri.exceptions import PatternTooComplex, RoconURIValueError, UnregisteredValue
 from rocon_uri.uri import parse
@@ -93,9 +94,10 @@ def main(args: argparse.Namespace) -> int:
         _print_json(answer, report)
     else:
         _show(answer)
+    notes = Notes()
     for given in answer.uris:
-        given.mention_one_slash()
-        given.mention_misplaced_name()
+        notes.mention(given)
+    notes.say_others()
     return report.status or (0 if answer.compatible else 1)
 
 

@@ -6,7 +6,7 @@ import sys
 from rocon_uri.cli.lines import read_lines
 from rocon_uri.cli.progress import beside_progress
 from rocon_uri.exceptions import RoconURIValueError, UnregisteredValue
-from rocon_uri.misplaced_name import misplaced_name
+from rocon_uri.grammar import VOCABULARY_FIELDS
 from rocon_uri.sources.encoding import NOT_UTF8, byte_at
 from rocon_uri.sources.wording import quoted, quoted_path
 from rocon_uri.uri import parse, parse_once
@@ -46,18 +46,6 @@ class GivenURI:
     def label(self) -> str:
         """What to call it among others: the app that asks, or else the text."""
         return self.uri.rocon_app or self.text
-
-    def mention_one_slash(self) -> None:
-        """Say it if ``//`` was read as ``/``, since that can hide a typing error."""
-        if self.uri.read_with_one_slash:
-            say('rocon_uri: note: %s is read as %s, since %s is a hardware_platform, not a concert'
-                % (quoted(self.text), quoted(self.uri.short), self.uri.hardware_platform))
-
-    def mention_misplaced_name(self) -> None:
-        """Say it if the name is probably meant as a value of another field."""
-        note = misplaced_name(self.uri)
-        if note:
-            say('rocon_uri: note: in %s, %s' % (quoted(self.text), note))
 
     def as_json(self) -> Dict[str, object]:
         """URI, as ``rocon_uri help json`` describes it."""
@@ -172,7 +160,7 @@ class _FaultsOfFile:
     """
     The faults in the lines of a file: one of each kind is reported in full, the others counted.
 
-    A kind is what `RoconURIValueError.problem` says, which quotes the value.
+    A kind is what `RoconURIValueError.problem` says: of a value, which, and of all else, not.
     """
 
     def __init__(self, report: Report, file: str) -> None:
@@ -205,7 +193,7 @@ class _FaultsOfFile:
 
     def _add(self, error: RoconURIValueError, number: int) -> None:
         """Report the fault of a line, or count it."""
-        if self._is_first(NOT_UTF8 if not_utf8(error.uri) else error.problem, number):
+        if self._is_first(_kind(error), number):
             self._report.bad_uri(error, self._file, number)
         if isinstance(error, UnregisteredValue):
             self._kinds[error.field, error.value] = error.problem
@@ -250,6 +238,15 @@ class _FaultsOfFile:
                 ' and %d more' % more if more else '')
             say(message)
             self._report.note(message, self._file)
+
+
+def _kind(error: RoconURIValueError) -> str:
+    if not_utf8(error.uri):
+        return NOT_UTF8
+    if error.field in VOCABULARY_FIELDS:
+        return error.problem
+    # names and apps can differ in every line
+    return (' ' + error.problem).replace(' ' + quoted(error.value), '', 1).strip()
 
 
 def _fields(text: str) -> List[str]:

@@ -8,7 +8,7 @@ Examples:
 Prints each URI with its canonical text, which has all fields, its short one, and
 its fields; concert_name and rocon_app where they are set. A note says so if //
 was read as /, as in rocon://turtlebot2/bob, and if the name is a value of another
-field, as in rocon:/pc/kitkat.
+field, as in rocon:/pc/kitkat; the same note about other URIs is only counted.
 
 A FILE has one URI a line, as for match; standard input is -. With --quiet prints
 what is not legal, and nothing else.
@@ -21,6 +21,7 @@ from __future__ import annotations
 from rocon_uri.cli.completion import offer, uris
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.given import Report, say
+from rocon_uri.cli.notes import Notes
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ def main(args: argparse.Namespace) -> int:
         say('rocon_uri parse: error: give a URI, or a file of them with --in')
         return 2
     report = Report(args.json)
+    notes = Notes()
     legal: List[Dict[str, object]] = []
     is_first = True
     for given in _read(args, report):
@@ -51,8 +53,8 @@ def main(args: argparse.Namespace) -> int:
         elif not args.quiet:
             _show(given, is_first)
             is_first = False
-        given.mention_one_slash()
-        given.mention_misplaced_name()
+        notes.mention(given)
+    notes.say_others()
     if args.json:
         print_json({'uris': legal, 'errors': report.errors})
     return report.status
