@@ -11,13 +11,14 @@ import itertools
 import random
 import re
 import tracemalloc
+from contextlib import contextmanager
 from functools import reduce
 from operator import or_
 
 import pytest
 from at_once import at_once
 from fuzz.name_pattern import is_easy_for_re
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import HealthCheck, assume, given, reject, settings
 from hypothesis import strategies as st
 from regular_patterns import (
     ALL_ATOMS, SMALL_ATOMS, admits_names, difference, language, patterns)
@@ -267,14 +268,23 @@ def short_names(found: Language) -> set:
 readable = patterns(SMALL_ATOMS).filter(admits_names).map(language)
 
 
+@contextmanager
+def unless_too_complex():
+    """Generated patterns may be refused, with counts in counts: others are tried then."""
+    try:
+        yield
+    except PatternTooComplex:
+        reject()
+
+
 @settings(max_examples=250, deadline=None, suppress_health_check=list(HealthCheck))
 @given(readable, readable)
 def test_common_name_and_difference_agree_with_trying_all_short_names(one, other):
     ours, theirs = short_names(one), short_names(other)
-    shared = common_name(one, other)
+    with unless_too_complex():
+        shared, only = common_name(one, other), difference(one, other)
     assert shared is None or one.matches(shared) and other.matches(shared)
     assert len(shared or 'x' * 99) <= min(map(len, ours & theirs), default=99)
-    only = difference(one, other)
     assert only is None or one.matches(only) and not other.matches(only)
     assert only is not None or ours <= theirs
     assert includes(other, one) == (only is None)
@@ -302,8 +312,9 @@ MIRROR = {'equal': 'equal', 'subset': 'superset', 'superset': 'subset', 'overlap
 @settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
 @given(readable, readable)
 def test_relation_has_a_mirror(one, other):
-    assert relation(other, one) == MIRROR[relation(one, other)]
-    assert common_name(one, other) == common_name(other, one)
+    with unless_too_complex():
+        assert relation(other, one) == MIRROR[relation(one, other)]
+        assert common_name(one, other) == common_name(other, one)
 
 
 @settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
@@ -313,10 +324,11 @@ def test_inclusion_is_an_order(languages, other):
     # Choices make it likely that there is something to include.
     ab = language('((%s)|(%s))' % (a.text.strip('^$'), b.text.strip('^$')))
     abc = language('((%s)|(%s))' % (ab.text, c.text.strip('^$')))
-    assert includes(ab, a) and includes(abc, ab) and includes(abc, a)
-    for x, y in ((a, b), (b, c), (ab, c)):
-        if includes(y, x):
-            assert not includes(other, y) or includes(other, x)
+    with unless_too_complex():
+        assert includes(ab, a) and includes(abc, ab) and includes(abc, a)
+        for x, y in ((a, b), (b, c), (ab, c)):
+            if includes(y, x):
+                assert not includes(other, y) or includes(other, x)
 
 
 @pytest.mark.parametrize('one, other, expected', [
