@@ -49,7 +49,7 @@ from rocon_uri.cli.given import say
 from rocon_uri.cli.judged import add_defaults, named_apps, read_defaults, read_robot
 from rocon_uri.cli.notes import Notes
 from rocon_uri.cli.packages import (
-    add_package_path, mention_faults, printable, shortened, shown_path, workspace)
+    add_package_path, mention_faults, one_line, shortened, shown_path, workspace)
 from rocon_uri.cli.running import add_running, what_runs
 from rocon_uri.compatibility import LEGEND
 from rocon_uri.sources import wording
@@ -154,9 +154,9 @@ def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool,
     virtual = [verdict for verdict in verdicts
                if not verdict and not verdict.app.is_implementation]
     others = [verdict for verdict in verdicts if not verdict and verdict.app.is_implementation]
-    width = max((len(printable(verdict.app.name)) for verdict in runs + others), default=0)
+    width = max((len(one_line(verdict.app.name)) for verdict in runs + others), default=0)
     print('%s can run %d of %d apps%s' % (
-        paint(printable(robot.text), 'bold'), len(runs), len(runs) + len(others),
+        paint(one_line(robot.text), 'bold'), len(runs), len(runs) + len(others),
         ':' if runs else ''))
     for verdict in runs:
         _show_line(verdict, width, 'green', show_all)
@@ -178,13 +178,13 @@ def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool,
             print(paint('(%s)' % LEGEND, 'faint'))
     if show_all and virtual:
         print('Virtual, as parents of others: %s'
-              % ', '.join(printable(verdict.app.name) for verdict in virtual))
+              % ', '.join(one_line(verdict.app.name) for verdict in virtual))
 
 
 def _show_running(verdict: Verdict, running: Optional[Dict[str, str]]) -> None:
     for capability, provider in (_running_of(verdict, running) or {}).items():
-        print('      %s %s' % (printable(capability), 'does not run' if provider is None
-                               else 'runs by %s' % printable(provider)))
+        print('      %s %s' % (one_line(capability), 'does not run' if provider is None
+                               else 'runs by %s' % one_line(provider)))
 
 
 def _running_of(verdict: Verdict, running: Optional[Dict[str, str]]
@@ -197,7 +197,7 @@ def _running_of(verdict: Verdict, running: Optional[Dict[str, str]]
 def _show_line(verdict: Verdict, width: int, style: str, show_file: bool) -> None:
     """Print the name of an app and what it is; its file too, if it is asked for or a .app."""
     app, paint = verdict.app, painter()
-    name = printable(app.name)
+    name = one_line(app.name)
     about = shortened(': '.join(text for text in (app.display, app.description)
                                 if text and text != app.name))
     if not show_file and app.form == 'app':

@@ -9,7 +9,7 @@ from rocon_uri.apps.app_file import AppFile
 from rocon_uri.apps.rapp import RequiredCapability
 from rocon_uri.apps.runnable import Verdict
 from rocon_uri.cli.display import painter
-from rocon_uri.cli.packages import printable, shown_path
+from rocon_uri.cli.packages import one_line, shown_path
 from rocon_uri.cli.rows import print_names, print_rows
 from rocon_uri.compatibility import LEGEND, MARKS
 from rocon_uri.sources import wording
@@ -78,11 +78,11 @@ def show_app(verdict: Verdict, robot: str, exported: Workspace,
     """
     app, paint = verdict.app, painter()
     print('%s: %s %s run %s' % (
-        paint('yes', 'green') if verdict else paint('no', 'red'), printable(robot),
-        'can' if verdict else 'cannot', paint(printable(app.name), 'bold')))
+        paint('yes', 'green') if verdict else paint('no', 'red'), one_line(robot),
+        'can' if verdict else 'cannot', paint(one_line(app.name), 'bold')))
     for text in app.display, app.description:
         if text and text != app.name:
-            print('  ' + printable(text))
+            print('  ' + one_line(text))
     print('  in ' + shown_path(app.path))
     judged = list(_judgements(verdict, exported.vocabulary))
     width = max((len(what) for _, what, _ in judged), default=0)
@@ -136,6 +136,6 @@ def _show_capability(needed: RequiredCapability, plan: StartPlan, exported: Work
         where + name for where, name in (('on the robot ', seen.robot_name),
                                          ('in the app ', seen.app_name)) if name != seen.name))
             for seen in seen_names(needed, plan, exported)]
-    print_rows(printable(heading), rows)
+    print_rows(one_line(heading), rows)
     if not rows:
-        print(printable('%s: no topics, services, actions or parameters are known' % needed.name))
+        print(one_line('%s: no topics, services, actions or parameters are known' % needed.name))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rocon_uri.workspace import Workspace
 
 __all__ = ['PackageReport', 'add_package_path', 'escape_unencodable', 'meant', 'mention_faults',
-           'package_path', 'printable', 'quiet_loggers', 'shortened', 'shown_path',
+           'one_line', 'package_path', 'quiet_loggers', 'shortened', 'shown_path',
            'workspace']
 
 
@@ -30,11 +30,11 @@ def add_package_path(parser: argparse.ArgumentParser) -> None:
                         '(default: ROS_PACKAGE_PATH)' % os.pathsep)
 
 
-def printable(text: object) -> str:
+def one_line(text: object) -> str:
     """
     What somebody wrote into a file, on one line: no control characters, white space is one blank.
 
-    >>> printable('Dance\\x1b[31m\\n')
+    >>> one_line('Dance\\x1b[31m\\n')
     'Dance\\\\x1b[31m'
     """
     return wording.printable(' '.join(str(text).split()))
@@ -48,7 +48,7 @@ def shown_path(path: str) -> str:
 
 def shortened(text: str) -> str:
     """What is left of a description where there is one line for it."""
-    line = printable(text)
+    line = one_line(text)
     return line if len(line) <= 100 else line[:97] + '...'
 
 

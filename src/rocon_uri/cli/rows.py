@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from rocon_uri.cli.display import painter
-from rocon_uri.cli.packages import printable
+from rocon_uri.cli.packages import one_line
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ def print_rows(heading: str, rows: Sequence[Sequence[str]]) -> None:
     """Print rows in columns below a heading; nothing if there are none."""
     if rows:
         print(painter()(heading, 'bold'))
-    cells = [tuple(map(printable, row)) for row in rows]
+    cells = [tuple(map(one_line, row)) for row in rows]
     widths = [max(map(len, column)) for column in zip(*cells)]
     for row in cells:
         print('  ' + '  '.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())

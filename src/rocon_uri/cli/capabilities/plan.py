@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.given import say
-from rocon_uri.cli.packages import printable
+from rocon_uri.cli.packages import one_line
 from rocon_uri.cli.running import capability_names
 
 TYPE_CHECKING = False
@@ -51,7 +51,7 @@ def main(server: RunningServer, args: argparse.Namespace) -> int:
     for step in steps:
         print('%s %s by %s' % (
             paint('runs  ', 'faint') if step['running'] else paint('starts', 'green'),
-            printable(step['capability']), printable(step['provider'])))
+            one_line(step['capability']), one_line(step['provider'])))
     for fault in plan.faults:
-        say('rocon_uri: ' + printable(fault))
+        say('rocon_uri: ' + one_line(fault))
     return 1 if plan.faults else 0

@@ -19,7 +19,7 @@ from __future__ import annotations
 import time
 
 from rocon_uri.cli.display import painter, print_json
-from rocon_uri.cli.packages import printable
+from rocon_uri.cli.packages import one_line
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def _show(capabilities: List[Dict[str, Any]]) -> None:
     rows += [(c['capability'], c['state'], _clock(c['since']), str(c['pid'] or '-'))
              for c in capabilities]
     for (name, state, since, pid), capability in zip(rows, [None, *capabilities]):
-        line = '%-*s  %-9s  %-8s  %s' % (width, printable(name), state, since, pid)
+        line = '%-*s  %-9s  %-8s  %s' % (width, one_line(name), state, since, pid)
         style = 'bold' if capability is None else _STYLES.get(state, 'cyan')
         print(paint(line, style))
         if capability is not None:
@@ -95,4 +95,4 @@ def _details(capability: Dict[str, Any]) -> List[str]:
         details.append('exit %d' % capability['exit_code'])
     if capability['text']:
         details.append(capability['text'])
-    return [printable(detail) for detail in details if detail]
+    return [one_line(detail) for detail in details if detail]

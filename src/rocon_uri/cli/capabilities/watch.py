@@ -20,7 +20,7 @@ import time
 
 from rocon_uri.cli.display import painter
 from rocon_uri.cli.given import say
-from rocon_uri.cli.packages import printable
+from rocon_uri.cli.packages import one_line
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def _print_event(event: Dict[str, Any], as_json: bool) -> None:
         print(json.dumps(event), flush=True)
         return
     clock = time.strftime('%H:%M:%S', time.localtime(event['time']))
-    kind = painter()('%-12s' % printable(event['event']), _STYLES.get(event['event'], 'cyan'))
-    what = '%s by %s, pid %d' % (printable(event['capability']), printable(event['provider']),
+    kind = painter()('%-12s' % one_line(event['event']), _STYLES.get(event['event'], 'cyan'))
+    what = '%s by %s, pid %d' % (one_line(event['capability']), one_line(event['provider']),
                                  event['pid']) if event['capability'] else ''
     print(('%s  %s  %s' % (clock, kind, what)).rstrip(), flush=True)

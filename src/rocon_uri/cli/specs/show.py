@@ -20,7 +20,7 @@ from __future__ import annotations
 from rocon_uri.cli.completion import offer, spec_names
 from rocon_uri.cli.display import painter, print_json
 from rocon_uri.cli.packages import (
-    add_package_path, meant, mention_faults, printable, workspace)
+    add_package_path, meant, mention_faults, one_line, workspace)
 from rocon_uri.cli.rows import print_names, print_rows
 from rocon_uri.sources import wording
 from rocon_uri.sources.wording import did_you_mean, quoted
@@ -102,7 +102,7 @@ class Shown:
 def _print(spec: Spec, shown: Shown) -> None:
     paint = painter()
     print('%s %s' % (spec.spec_type.replace('_', ' '), paint(spec.name, 'bold')))
-    print('  ' + printable(spec.description))
+    print('  ' + one_line(spec.description))
     print('  in ' + wording.printable(str(spec.file_name)))
     if shown.provider is not None:
         _print_provider(shown.provider)
@@ -114,7 +114,7 @@ def _print(spec: Spec, shown: Shown) -> None:
         if shown.interface is not None:
             _print_interface(shown.interface)
         print_names('providers', shown.providers)
-    print_names('faults', map(printable, shown.faults))
+    print_names('faults', map(one_line, shown.faults))
 
 
 def _print_provider(spec: CapabilityProvider) -> None:
@@ -138,4 +138,4 @@ def _print_interface(interface: CapabilityInterface) -> None:
         rows.setdefault((section, grouping), []).append((name, element.type or ''))
     for (section, grouping), named in rows.items():
         print_rows('%s %s' % (grouping, section) if grouping else section, named)
-    print_names('dynamic_parameters', map(printable, interface.dynamic_parameters))
+    print_names('dynamic_parameters', map(one_line, interface.dynamic_parameters))
