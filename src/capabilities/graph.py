@@ -180,7 +180,6 @@ class Graph(Roster):
         """
         self._ends = True
         self._retire(list(self._current.values()))
-        self._advance()
 
     # what happened
 

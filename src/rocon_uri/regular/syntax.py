@@ -85,7 +85,7 @@ class _Reader:
     def __init__(self, text: str) -> None:
         self.text = text
         self.at = self.begin = 1 if text.startswith('^') else 0
-        self.end = max(self.at, len(text) - 1 if text.endswith('$') else len(text))
+        self.end = len(text) - 1 if text.endswith('$') else len(text)
 
     def error(self, problem: str, start: int, end: int, advice: str = '') -> RoconURIValueError:
         return RoconURIValueError(problem, self.text, 'name', self.text, (start, end),
