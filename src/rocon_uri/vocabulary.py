@@ -11,7 +11,7 @@ import itertools
 import os
 from _thread import RLock       # as functools does: threading takes longer than parsing
 
-from rocon_uri.sources.wording import expectation, shown
+from rocon_uri.sources.wording import cannot_be_read, expectation, shown
 from rocon_uri.field_vocabulary import FieldVocabulary, RulesError, add_rules, members
 from rocon_uri.grammar import VOCABULARY_FIELDS
 
@@ -209,7 +209,7 @@ def with_exported_rules(vocabulary: Vocabulary) -> Vocabulary:
         for error in errors:
             import logging      # costs more than the rest of the package, and few need it
             logging.getLogger('rocon_uri').warning(text, located(
-                'cannot be read: %s' % error.strerror, error.filename, *NOWHERE)
+                cannot_be_read(error), error.filename, *NOWHERE)
                 if isinstance(error, OSError) else error)
     return vocabulary
 

@@ -25,7 +25,7 @@ from rocon_uri.sources.resources import Resources
 from rocon_uri.sources.checked import Reading
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place, with_id
 from rocon_uri.sources.packages import Package
-from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.wording import cannot_be_read, quoted
 from rocon_uri.sources.yaml_source import read_file
 
 __all__ = ['app_files_from_package_index', 'app_folders', 'installed_apps', 'installed_files']
@@ -115,5 +115,4 @@ def _app(name: str, installed: str, place: Place, resources: Resources) -> AppFi
 
 
 def _unreadable(path: str, error: OSError) -> InvalidApp:
-    return with_id(InvalidApp('cannot be read: %s' % (error.strerror or error), path, *NOWHERE),
-                   'cannot-read')
+    return with_id(InvalidApp(cannot_be_read(error), path, *NOWHERE), 'cannot-read')

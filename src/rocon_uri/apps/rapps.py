@@ -24,7 +24,7 @@ from rocon_uri.apps.runnable import Reason, ReasonKind, Verdict, runnable
 from rocon_uri.sources.located import with_id
 from rocon_uri.sources.packages import Package, as_package
 from rocon_uri.sources.wording import (
-    NamesByPart, did_you_mean, quoted, quoted_path)
+    NamesByPart, cannot_be_read, did_you_mean, quoted, quoted_path)
 
 if TYPE_CHECKING:
     from catkin_pkg.package import Package as CatkinPackage
@@ -103,8 +103,7 @@ def rapps_from_rapp_file_index(
             except InvalidRapp as error:
                 errors.append(error)
             except OSError as error:
-                errors.append(with_id(InvalidRapp('cannot be read: %s' % (
-                    error.strerror or error), path), 'cannot-read'))
+                errors.append(with_id(InvalidRapp(cannot_be_read(error), path), 'cannot-read'))
     return rapps, errors
 
 

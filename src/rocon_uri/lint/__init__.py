@@ -31,6 +31,7 @@ from rocon_uri.lint.spec_files import check_spec
 from rocon_uri.lint.unexported import check_unexported
 from rocon_uri.sources.located import Fault
 from rocon_uri.sources.packages import Package, PackageError, find_packages
+from rocon_uri.sources.wording import cannot_be_read
 from rocon_uri.workspace import Workspace, load_workspace
 
 __all__ = ['ERROR', 'Checked', 'Finding', 'WARNING', 'check_package_index', 'check_packages']
@@ -151,7 +152,7 @@ def _path(fault: Fault) -> str:
 def _finding(fault: Fault) -> Finding:
     if isinstance(fault, OSError):
         return Finding(file_name=_path(fault), line=None, column=None, severity=ERROR,
-                       problem='cannot be read: %s' % (fault.strerror or fault), id='cannot-read')
+                       problem=cannot_be_read(fault), id='cannot-read')
     return Finding(file_name=_path(fault), line=fault.line, column=fault.column, severity=ERROR,
                    problem=fault.sentence, id=fault.id)
 

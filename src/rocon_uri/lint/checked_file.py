@@ -13,7 +13,8 @@ from rocon_uri.sources.launch_file import MISSING, LaunchFault, LaunchFiles
 from rocon_uri.sources.located import NOWHERE, LocatedError, Place
 from rocon_uri.sources.resources import not_a_path
 from rocon_uri.sources.ros_names import is_legal_base_name, is_legal_name
-from rocon_uri.sources.wording import NamesByPart, NearMisses, did_you_mean, quoted
+from rocon_uri.sources.wording import (
+    NamesByPart, NearMisses, cannot_be_read, did_you_mean, quoted)
 from rocon_uri.sources.yaml_data import split_lines
 from rocon_uri.sources.yaml_source import read_file
 from rocon_uri.uri import parse
@@ -85,7 +86,7 @@ class CheckedFile(Reading):
         try:
             content = read_file(self.path)
         except OSError as error:
-            self.error('cannot be read: %s' % (error.strerror or error), NOWHERE, 'cannot-read')
+            self.error(cannot_be_read(error), NOWHERE, 'cannot-read')
             return None
         return self.data(content)
 
@@ -230,7 +231,7 @@ def _denied(path: str) -> str:
     try:
         os.stat(path)
     except PermissionError as error:
-        return 'cannot be read: %s' % error.strerror
+        return cannot_be_read(error)
     except (OSError, ValueError):
         pass
     return ''

@@ -10,7 +10,7 @@ from rocon_uri.lint.finding import Finding
 from rocon_uri.sources.located import Place
 from rocon_uri.sources.packages import (
     Element, Export, Package, PackageError, manifest_elements)
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.sources.wording import cannot_be_read, did_you_mean, near_misses, quoted
 
 __all__ = ['FILE_EXPORTS', 'check_manifest']
 
@@ -106,7 +106,7 @@ def _check_app_dir(export: Export, package: Package, file: CheckedFile) -> None:
         try:
             os.listdir(path)
         except PermissionError as error:
-            file.error('exported folder %s cannot be read: %s' % (quoted(name), error.strerror),
+            file.error('exported folder %s %s' % (quoted(name), cannot_be_read(error)),
                        place, 'cannot-read')
         except OSError as error:
             file.error('exported folder %s %s' % (

@@ -24,7 +24,7 @@ from typing import Callable, Dict, List, NamedTuple, NoReturn, Optional, Tuple
 from xml.parsers import expat
 
 from rocon_uri.sources.resources import not_a_path
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.sources.wording import cannot_be_read, did_you_mean, near_misses, quoted
 from rocon_uri.sources.yaml_data import MAX_SIZE
 from rocon_uri.sources.yaml_source import read_file
 
@@ -207,8 +207,7 @@ def _read(name: str, folder: str) -> LaunchFile:
                 refused.problem, _alternatives(name, folder, package))
             fault = replace(fault, problem=problem, alternatives=alternatives)
     except OSError as error:
-        problem = 'cannot be read: %s' % (error.strerror or error)
-        fault = LaunchFault(kind=UNREADABLE, problem=problem, name=name, path=path)
+        fault = LaunchFault(kind=UNREADABLE, problem=cannot_be_read(error), name=name, path=path)
     except ValueError:      # there is a NUL in it, or a lone surrogate
         real_path = None
         fault = LaunchFault(kind=UNREADABLE, problem='is not the name of a file', name=name,

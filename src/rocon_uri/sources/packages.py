@@ -22,7 +22,7 @@ from rocon_uri.sources.manifest import (
     MANIFEST, Element, Export, Package, PackageError, as_package, manifest_elements,
     package_from_manifest, read_manifest)
 from rocon_uri.sources.walk import leads_to_folder
-from rocon_uri.sources.wording import quoted, quoted_path
+from rocon_uri.sources.wording import cannot_be_read, quoted, quoted_path
 
 __all__ = ['Element', 'Export', 'MANIFEST', 'Package', 'PackageError', 'as_package',
            'find_packages', 'manifest_elements', 'package_folders', 'package_from_manifest',
@@ -81,8 +81,8 @@ def package_folders(path: str, errors: Optional[List[PackageError]] = None) -> I
             continue
         except OSError as error:
             if errors is not None and not folder.startswith('/usr/share/'):
-                errors.append(with_id(PackageError('folder cannot be read: %s' % (
-                    error.strerror or error), folder), 'cannot-read'))
+                errors.append(with_id(PackageError(
+                    'folder ' + cannot_be_read(error), folder), 'cannot-read'))
             continue
         if not _IGNORE_MARKERS.isdisjoint(is_folder):
             continue

@@ -7,8 +7,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Collection, Dict, Iterable, List, Sequence
 
-__all__ = ['NamesByPart', 'NearMisses', 'did_you_mean', 'expectation', 'near_misses',
-           'near_parts', 'printable', 'quoted', 'quoted_path', 'shown', 'with_article']
+__all__ = ['NamesByPart', 'NearMisses', 'cannot_be_read', 'did_you_mean', 'expectation',
+           'near_misses', 'near_parts', 'printable', 'quoted', 'quoted_path', 'shown',
+           'with_article']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _FEW_NAMES = 500        # of which each is compared, at about 20 us
@@ -41,6 +42,16 @@ def printable(text: str) -> str:
     a\\nb
     """
     return ''.join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
+def cannot_be_read(error: OSError) -> str:
+    """
+    What an error says of the file or folder that it is about.
+
+    >>> cannot_be_read(PermissionError(13, 'Permission denied', '/root'))
+    'cannot be read: Permission denied'
+    """
+    return 'cannot be read: %s' % (error.strerror or error)
 
 
 def near_misses(text: str, candidates: Iterable[str]) -> List[str]:
