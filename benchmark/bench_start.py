@@ -13,7 +13,7 @@ PAIRS = [
     ('from rocon_uri import is_compatible, parse',
      ['-c', 'from rocon_uri import is_compatible, parse'], 'import re, enum', 1.4),
     ('scripts/rocon_uri parse URI', [SCRIPT, 'parse', 'rocon:/pr2/bob/noetic/focal'],
-     'import argparse', 1.6),
+     'import argparse', 1.35),
 ]
 
 

@@ -256,6 +256,18 @@ runpy.run_path(sys.argv[1], run_name='__main__')
     assert done.returncode == 130 and done.stderr == b''
 
 
+def test_the_script_collects_garbage_but_not_in_what_it_imported():
+    asking = '''
+import gc, runpy, sys
+import rocon_uri.cli
+rocon_uri.cli.main = lambda: print(gc.isenabled(), gc.get_freeze_count() > 1000)
+runpy.run_path(sys.argv[1], run_name='__main__')
+'''
+    done = subprocess.run([sys.executable, '-c', asking, str(ROOT / 'scripts/rocon_uri')],
+                          stdout=subprocess.PIPE, env=environment())
+    assert done.returncode == 0 and done.stdout == b'True True\n'
+
+
 # -- terminals -------------------------------------------------------------------------------------
 
 def run_on_terminal(*arguments, **changes):

@@ -60,6 +60,18 @@ for text in ('rocon:/pr2/3bob', 'rocon:/pr2|', 'rocon:/pr2 '):
     assert not {name for name in loaded if name.partition('.')[0] in ROS | {'yaml', 'logging'}}
 
 
+def test_a_verb_that_reads_no_file_loads_nothing_for_it():
+    loaded = loaded_by("from rocon_uri.cli import main\nmain(['parse', 'rocon:/pr2/bob'])")
+    assert 'rocon_uri.cli.given' in loaded
+    assert not loaded & {'rocon_uri.cli.lines', 'encodings.ascii'}
+
+
+def test_only_a_matrix_loads_what_the_size_of_a_terminal_takes():
+    loaded = loaded_by('from rocon_uri.cli import main\n'
+                       "main(['match', 'rocon:/', '--in', '/dev/null'])")
+    assert 'rocon_uri.cli.matrix' in loaded and 'shutil' not in loaded
+
+
 def test_only_expressions_load_automata():
     assert not loaded_by(READING) & AUTOMATA
     assert AUTOMATA & loaded_by("import rocon_uri\nrocon_uri.parse('rocon:/*/bob[0-9]')")

@@ -57,5 +57,5 @@ def _is_first_name(name: str, vocabulary: Vocabulary) -> bool:
 @lru_cache(maxsize=None)
 def _first_names() -> FrozenSet[str]:
     import json     # here, since few names are values
-    with open(os.path.join(RULES_FOLDER, 'first_names.json'), encoding='ascii') as file:
+    with open(os.path.join(RULES_FOLDER, 'first_names.json'), encoding='utf-8') as file:
         return frozenset(json.load(file))

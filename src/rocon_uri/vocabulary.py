@@ -91,7 +91,7 @@ class Vocabulary:
         import json     # here, since importing the package should be cheap
         rules = {}
         for name in VOCABULARY_FIELDS:
-            with open(os.path.join(RULES_FOLDER, name + '.json'), encoding='ascii') as rules_file:
+            with open(os.path.join(RULES_FOLDER, name + '.json'), encoding='utf-8') as rules_file:
                 rules[name] = json.load(rules_file)
         return cls(rules)
 

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import sys
 
-from rocon_uri.cli.lines import read_lines
 from rocon_uri.cli.progress import beside_progress
 from rocon_uri.exceptions import RoconURIValueError, UnregisteredValue
 from rocon_uri.grammar import VOCABULARY_FIELDS
@@ -102,6 +101,7 @@ class Report:
         at the end. Each iterator that is yielded is to be used up before the next; it has what
         can be had without waiting.
         """
+        from rocon_uri.cli.lines import read_lines      # here, since few calls name a file
         faults = _FaultsOfFile(self, shown_name(path))
         first = 1
         try:

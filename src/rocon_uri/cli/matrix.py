@@ -1,7 +1,6 @@
 """The forms of a matrix of requests and resources: for people, for a spreadsheet, for a browser."""
 from __future__ import annotations
 
-import shutil
 import sys
 
 from rocon_uri.cli.display import painter
@@ -28,6 +27,7 @@ __all__ = ['print_matrix', 'print_table', 'write_page']
 
 def print_matrix(matches: Matches) -> None:
     """Print a letter for each request before each resource, below what the columns are."""
+    import shutil       # slow to import, and few calls print a matrix
     paint = painter()
     print(paint(LEGEND + UNDECIDED, 'faint'))
     number = len(matches.requests)
