@@ -52,8 +52,10 @@ def members(rules: object, path: Tuple[object, ...] = ()) -> Iterator[Member]:
         for index, item in enumerate(rules):
             if isinstance(item, list):
                 raise RulesError('a list stands where a value or a group belongs', path + (index,))
-            for name, below, place in members(item, path + (index,)):
-                yield name, below, place
+            if isinstance(item, str):       # as most are
+                yield item, None, path + (index,)
+            else:
+                yield from members(item, path + (index,))
     elif rules is not None:
         yield rules, None, path
 
@@ -194,7 +196,8 @@ def add_rules(field: str, known: Mapping[str, Optional[str]], added: Dict[str, O
             raise RulesError("%s '%s' cannot be in '%s', since it is already %s" % (
                 field, name, parent,
                 "in '%s'" % group if group else 'at the top, in no group'), place)
-        waiting += [(name, entry) for entry in members(below, place)][::-1]
+        if below is not None:
+            waiting += [(name, entry) for entry in members(below, place)][::-1]
 
 
 def _checked_name(field: str, name: object, path: Tuple[object, ...]) -> str:

@@ -10,10 +10,6 @@ import re
 
 __all__ = ['is_legal_base_name', 'is_legal_name', 'is_legal_resource_name', 'legalised']
 
-_base_name = re.compile(r'[A-Za-z]\w*', re.ASCII).fullmatch
-_resource_name = re.compile(r'[A-Za-z][\w/]*', re.ASCII).fullmatch
-_graph_name = re.compile(r'[~/A-Za-z][\w/]*', re.ASCII).fullmatch
-
 
 def is_legal_base_name(name: str | None) -> bool:
     """
@@ -25,7 +21,8 @@ def is_legal_base_name(name: str | None) -> bool:
     >>> is_legal_base_name('bob_7'), is_legal_base_name('7bob'), is_legal_base_name('a/bob')
     (True, False, False)
     """
-    return name is not None and _base_name(name) is not None
+    # as [A-Za-z]\w* in re, in half the time
+    return name is not None and name.isascii() and name.isidentifier() and name[0] != '_'
 
 
 def is_legal_resource_name(name: str | None) -> bool:
@@ -41,7 +38,8 @@ def is_legal_resource_name(name: str | None) -> bool:
     >>> is_legal_resource_name('rocon_apps/teleop'), is_legal_resource_name('/teleop')
     (True, False)
     """
-    return name is not None and _resource_name(name) is not None and '//' not in name
+    return (name is not None and '//' not in name
+            and re.fullmatch(r'[A-Za-z][\w/]*', name, re.ASCII) is not None)
 
 
 def is_legal_name(name: str | None) -> bool:
@@ -56,7 +54,7 @@ def is_legal_name(name: str | None) -> bool:
     """
     if not name:
         return name == ''
-    return _graph_name(name) is not None and '//' not in name
+    return '//' not in name and re.fullmatch(r'[~/A-Za-z][\w/]*', name, re.ASCII) is not None
 
 
 def legalised(name: str) -> str:
