@@ -1,5 +1,6 @@
 """match with a database in the place of a file."""
 import json
+from pathlib import Path
 
 import pytest
 import test_resource_index as of_index
@@ -43,6 +44,28 @@ def test_it_answers_as_the_file_does(stored, ask, arguments):
     found = ask(*arguments, '--in', stored)
     assert found[0] == status
     assert canonical(found[1]) == canonical(out)
+
+
+@pytest.mark.parametrize('arguments', [
+    ['rocon:/pr2/*/*/focal'], ['rocon:/kobuki/bmper'], ['rocon:/pr2/bbo/jade/focal'],
+    ['rocon://north/pc/x'], ['rocon:/husky/*/jade'], ['rocon:/pr2/*/*/focal', 'rocon:/kobuki/x'],
+    ['rocon:/pr2/*/*/focal', '--json'], ['rocon:/pr2/x{2}', '--matrix']])
+def test_what_is_nearest_is_said_as_of_a_file(stored, ask, arguments):
+    status, _, err = ask(*arguments, '--in', FLEET)
+    assert status == 1
+    before, _, rest = err.partition(FLEET + ':')
+    line, excluded = int(rest.partition(':')[0]), rest.partition(', excluded by ')[2]
+    uri = Path(FLEET).read_text(encoding='utf-8').splitlines()[line - 1].split(' #')[0].strip()
+    from rocon_uri import parse
+    assert ask(*arguments, '--in', stored)[2] == "%s%s: '%s', excluded by %s" % (
+        before, stored.split('?')[0].replace('postgres@', ''), parse(uri), excluded)
+
+
+def test_an_empty_database_is_said_to_be_one(database_url, ask, tmp_path):
+    (tmp_path / 'fleet.txt').write_text('')
+    assert ask('--in', str(tmp_path / 'fleet.txt'), '--into', database_url)[0] == 0
+    assert ask('rocon:/pr2', '--in', database_url) == (
+        1, '', 'rocon_uri: note: nothing found: there are no resources\n')
 
 
 def test_a_matrix(stored, ask):

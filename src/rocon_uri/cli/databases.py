@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import re
+from itertools import combinations, islice
 
 from rocon_uri.cli.given import say, shown_name
 from rocon_uri.exceptions import PatternTooComplex
@@ -15,6 +16,10 @@ if TYPE_CHECKING:
     from rocon_uri.resource_database import ResourceDatabase
 
 __all__ = ['Fleet', 'is_url', 'open_fleet']
+
+_NEAREST = 1000     # resources among which the nearest name is looked for
+_FIELDS = ('name', 'application_framework', 'operating_system', 'concert_name',
+           'hardware_platform')
 
 is_url = re.compile(r'[a-z0-9+]+://').match
 
@@ -48,6 +53,17 @@ class Fleet:
         except OSError as error:
             self._report.note(str(error), self.name)
             say('rocon_uri: %s' % error)
+
+    def nearest_lines(self, request: RoconURI) -> Iterator[Iterator[Line]]:
+        """Resources that as few fields as possible exclude, where a request finds none."""
+        asked = [field for field in _FIELDS if str(getattr(request, field)) not in ('', '*')]
+        for count in range(1, len(asked) + 1):
+            wider = (request.replace(**dict.fromkeys(fields, ''))       # type: ignore[arg-type]
+                     for fields in combinations(asked, count))
+            found = [line for each in wider for line in islice(self._lines(each), _NEAREST)]
+            if found:
+                yield iter(found)
+                return
 
     def store(self, path: str) -> None:
         """Store the resources in a file, those whose lines are legal."""

@@ -88,9 +88,9 @@ def main(args: argparse.Namespace) -> int:
     if args.requests_in is not None:
         requests.extend(report.read_file(args.requests_in))
     matches = Matches(requests, args.resources_in, report, args.matrix)
+    fleet, only = None, len(requests) == 1 and not args.matrix
     if is_url(args.resources_in):
         fleet = open_fleet(args.resources_in, report, create=False)
-        only = len(requests) == 1 and not args.matrix
         matches.path = fleet.name if fleet else ''
         matches.batches = fleet.lines(requests[0].uri if only else RoconURI()) if fleet else []
     if args.html is not None:
@@ -110,9 +110,11 @@ def main(args: argparse.Namespace) -> int:
             write(text + '\n')
     else:
         _print_pairs(matches)
-    if not matches.found and not matches.undecided and not is_url(args.resources_in) \
-            and matches.nearest():
-        say('rocon_uri: note: ' + matches.nearest())
+    if not matches.found and not matches.undecided:
+        if fleet and only and not report.status:
+            matches.look_at(fleet.nearest_lines(requests[0].uri))
+        if matches.nearest():
+            say('rocon_uri: note: ' + matches.nearest())
     return report.status or (0 if matches.found else 1)
 
 

@@ -81,6 +81,12 @@ class Matches:
                     self._report.bad_uri(_undecided(request, uri, text), shown_name(self.path),
                                          number)
 
+    def look_at(self, batches: Iterable[Iterator[Line]]) -> None:
+        """Take further resources that no request is compatible with, among which is the nearest."""
+        self.batches = batches
+        for _ in self:
+            pass
+
     def nearest(self) -> str:
         """What to say if nothing was found: the nearest resource, and what excludes it."""
         if not self.requests or not self._kinds:
@@ -95,9 +101,11 @@ class Matches:
                 excluded.append((len(fields), 'hardware_platform' in fields, request, explanation,
                                  line))
         *_, request, explanation, (_, text, number) = min(excluded, key=lambda found: found[:2])
-        return 'nothing found%s; the nearest is %s:%s: %s, excluded by %s' % (
+        place = shown_name(self.path) if number is None else '%s:%s' % (
+            shown_name(self.path), number)
+        return 'nothing found%s; the nearest is %s: %s, excluded by %s' % (
             ' for %s' % quoted(request.text) if len(self.requests) > 1 else '',
-            shown_name(self.path), number, quoted(text),
+            place, quoted(text),
             ' and '.join('%s (%s, requested %s)' % (field.field, quoted(field.b), quoted(field.a))
                          for field in explanation.fields if not field.is_compatible))
 
