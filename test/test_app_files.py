@@ -274,6 +274,15 @@ def test_one_app_says_that_its_platform_is_not_registered(apps: Run, tmp_path: P
                         'is not registered)')
 
 
+def test_one_app_whose_launch_file_fits_says_so_whatever_another_file_is(
+        apps: Run, tmp_path: Path) -> None:
+    package(tmp_path, DANCE.replace('dance.interface', 'gone.interface'))
+    for more in [], ['--ignore', 'interface-missing']:
+        _, lines, _ = apps('ours/dance', '--robot', 'rocon:/pr2', '--package-path', tmp_path, *more)
+        assert [line.split()[:2] for line in lines[3:]] == [
+            ['x', 'platform'], ['x', 'launch'], ['.', 'interface-missing']][:3 - bool(more)]
+
+
 def test_json_tells_the_forms_apart(tmp_path: Path, capsys: Any) -> None:
     made = package(tmp_path)
     assert main(['apps', '--json', '--robot', 'rocon:/pr2', '--package-path', str(tmp_path)]) == 0

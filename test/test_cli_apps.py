@@ -351,6 +351,11 @@ def test_what_is_ignored_is_not_said_to_fit(apps):
     assert [line.split()[:2] for line in lines[5:]] == [['x', 'launch']]
     status, lines, _ = apps('cafe_rapps/radio', *given)
     assert [line.split()[:2] for line in lines[5:]] == [['x', 'platform'], ['x', 'launch']]
+    _, lines, _ = apps('cafe_rapps/serve', *given, '--ignore', 'no-provider')
+    assert [line.split()[:3] for line in lines[5:8]] == [
+        ['x', 'platform', "'rocon:/turtlebot2|waiterbot'"], ['x', 'launch', lines[6].split()[2]],
+        ['x', 'capability', 'cafe_capabilities/MobileBase']]
+    assert 'capability  cafe_capabilities/Tray' not in '\n'.join(lines)
 
 
 def test_an_app_may_have_nothing_to_judge(apps, tmp_path):

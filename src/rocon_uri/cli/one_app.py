@@ -7,7 +7,7 @@ from capabilities.merged_remappings import merged_remappings
 from capabilities.planning.plan import StartPlan
 from rocon_uri.apps.app_file import AppFile
 from rocon_uri.apps.rapp import RequiredCapability
-from rocon_uri.apps.runnable import Verdict
+from rocon_uri.apps.runnable import ReasonKind, Verdict
 from rocon_uri.cli.display import painter
 from rocon_uri.cli.packages import one_line, shown_path
 from rocon_uri.cli.rows import print_names, print_rows
@@ -107,17 +107,19 @@ def _judgements(verdict: Verdict, vocabulary: Vocabulary) -> Iterator[Tuple[bool
     What does not fit and is ignored is not there.
     """
     app, plan = verdict.app, verdict.plan
-    against = {reason.kind.value for reason in verdict.reasons + verdict.ignored}
-    if 'platform' not in against and isinstance(app, AppFile):
+    against = verdict.reasons + verdict.ignored
+    fits = all(reason.kind is not ReasonKind.PLATFORM for reason in against)
+    if fits and isinstance(app, AppFile):
         yield True, 'platform', '%s includes this robot%s' % (
             quoted(app.platform), '' if app.is_registered(vocabulary) else
             ' (compared as text, since it is not registered)')
-    elif 'platform' not in against and app.compatibility is not None:
+    elif fits and app.compatibility is not None:
         yield True, 'platform', '%s includes this robot' % quoted(app.compatibility)
-    if 'launch' not in against:
-        yield from ((True, key, shown_path(app.files[key]))
-                    for key in ('launch', 'run') if key in app.files)
-    faulty = {reason.fault.asked_for for reason in verdict.reasons if reason.fault is not None}
+    faulty_files = {reason.id.partition('-')[0] for reason in against
+                    if reason.kind is ReasonKind.LAUNCH}
+    yield from ((True, key, shown_path(app.files[key]))
+                for key in ('launch', 'run') if key in app.files and key not in faulty_files)
+    faulty = {reason.fault.asked_for for reason in against if reason.fault is not None}
     yield from ((True, 'capability', '%s by %s' % (needed.name, plan.providers[needed.name]))
                 for needed in app.required_capabilities
                 if needed.name in plan.providers and needed.name not in faulty)
