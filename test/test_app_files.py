@@ -274,6 +274,13 @@ def test_one_app_says_that_its_platform_is_not_registered(apps: Run, tmp_path: P
                         'is not registered)')
 
 
+def test_one_app_says_that_its_platform_is_a_group(apps: Run, tmp_path: Path) -> None:
+    package(tmp_path, DANCE.replace('pr2', 'robot'))
+    status, lines, _ = apps('ours/dance', '--robot', 'rocon:/pr2', '--package-path', tmp_path)
+    assert (status, lines[3]) == (0, "  x  platform  'robot' includes this robot (a group, which "
+                                     'app_manager compares as text)')
+
+
 def test_one_app_whose_launch_file_fits_says_so_whatever_another_file_is(
         apps: Run, tmp_path: Path) -> None:
     package(tmp_path, DANCE.replace('dance.interface', 'gone.interface'))

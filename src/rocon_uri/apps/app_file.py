@@ -132,6 +132,16 @@ class AppFile(NamedTuple):
         return self.platform == ALL or self.platform in vocabulary.field(
             'hardware_platform')
 
+    def is_group(self, vocabulary: Vocabulary) -> bool:
+        """
+        Is its platform a registered group, which app_manager compares as text?
+
+        :param Vocabulary vocabulary: the values that are registered
+        :returns: bool
+        """
+        return self.is_registered(vocabulary) and self.platform != ALL and bool(
+            vocabulary.field('hardware_platform').children(self.platform))
+
     def position(self, key: str) -> Place:
         """
         Where in its file the value of a key begins.

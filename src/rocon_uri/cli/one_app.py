@@ -111,8 +111,10 @@ def _judgements(verdict: Verdict, vocabulary: Vocabulary) -> Iterator[Tuple[bool
     fits = all(reason.kind is not ReasonKind.PLATFORM for reason in against)
     if fits and isinstance(app, AppFile):
         yield True, 'platform', '%s includes this robot%s' % (
-            quoted(app.platform), '' if app.is_registered(vocabulary) else
-            ' (compared as text, since it is not registered)')
+            quoted(app.platform),
+            ' (compared as text, since it is not registered)'
+            if not app.is_registered(vocabulary) else
+            ' (a group, which app_manager compares as text)' if app.is_group(vocabulary) else '')
     elif fits and app.compatibility is not None:
         yield True, 'platform', '%s includes this robot' % quoted(app.compatibility)
     faulty_files = {reason.id.partition('-')[0] for reason in against

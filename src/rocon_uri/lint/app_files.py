@@ -3,8 +3,7 @@ from __future__ import annotations
 
 from typing import List
 
-from rocon_uri.apps.app_file import (
-    ALL, KEYS, WHAT_RESOURCES_ARE, AppFile, launch_file_fault)
+from rocon_uri.apps.app_file import KEYS, WHAT_RESOURCES_ARE, AppFile, launch_file_fault
 from rocon_uri.grammar import is_rocon_app
 from rocon_uri.lint.checked_file import CheckedFile, is_inside
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
@@ -53,7 +52,7 @@ def _check_platform(app: AppFile, file: CheckedFile, workspace: Workspace) -> No
         file.warn('platform %s is not registered%s; it is compared with that of the robot as text'
                   % (quoted(app.platform), did_you_mean(near_misses(app.platform, registered))),
                   app.position('platform'), 'unregistered-platform')
-    elif app.platform != ALL and registered.children(app.platform):
+    elif app.is_group(workspace.vocabulary):
         file.warn('platform %s is a group, which app_manager does not know: it compares the '
                   'platform with that of the robot as text' % quoted(app.platform),
                   app.position('platform'), 'group-platform')
