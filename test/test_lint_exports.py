@@ -1,6 +1,8 @@
 """What the linter says of a package.xml, and of files that nobody exports."""
 from __future__ import annotations
 
+import os
+
 import pytest
 from made_packages import make_package
 
@@ -168,6 +170,19 @@ def test_an_app_is_listed_by_an_installed_file_that_counts(found, files, finding
 
 def test_an_app_of_another_package_is_none_of_this_one(found):
     assert apps(found, listed='theirs/dance', dance_app=APP) == [('dance.app', 'not-listed')]
+
+
+@pytest.mark.parametrize('elsewhere', [False, True])
+def test_an_app_may_be_listed_by_another_package(tmp_path, elsewhere):
+    """As robots have it: one package lists the apps of several."""
+    make_package(tmp_path / 'a', 'theirs', dance_app=APP.replace('ours', 'theirs'),
+                 sing_app=APP.replace('ours', 'theirs'), a_interface='{}', a_launch='<launch/>')
+    robot = make_package(tmp_path / 'b', 'robot', apps__x_installed='apps: [{app: theirs/dance}]')
+    (robot / 'package.xml').write_text((robot / 'package.xml').read_text().replace(
+        '<export>', '<depend>app_manager</depend><export><app_manager app_dir="apps"/>'))
+    paths = ([str(tmp_path / 'a')], [str(tmp_path / 'b')]) if elsewhere else ([str(tmp_path)], [])
+    [finding] = check_packages(*paths)
+    assert (os.path.basename(finding.file_name), finding.id) == ('sing.app', 'not-listed')
 
 
 @pytest.mark.parametrize('path, problem', [

@@ -28,7 +28,7 @@ from rocon_uri.lint.manifest import check_manifest
 from rocon_uri.lint.package_files import package_files
 from rocon_uri.lint.rapp_files import check_rapp
 from rocon_uri.lint.spec_files import check_spec
-from rocon_uri.lint.unexported import check_unexported
+from rocon_uri.lint.unexported import check_unexported, listed_apps
 from rocon_uri.sources.located import Fault
 from rocon_uri.sources.packages import Package, PackageError, find_packages
 from rocon_uri.sources.wording import cannot_be_read
@@ -103,6 +103,7 @@ def check_package_index(checked: Mapping[str, Package], others: Mapping[str, Pac
 def _checks(checked: Mapping[str, Package], workspace: Workspace, ignored: List[Ignored],
             ) -> Iterator[Tuple[str, Callable[[], List[Finding]]]]:
     """The checks of each file. That of a configuration adds to what is ignored."""
+    listed = listed_apps(workspace.packages.values())
     for package in checked.values():
         folder, paths = package.folder, package_files(package.folder)
         entries, faults = read_configuration(folder)
@@ -110,7 +111,7 @@ def _checks(checked: Mapping[str, Package], workspace: Workspace, ignored: List[
         if faults:
             yield faults[0].file_name, partial(list, faults)
         yield package.manifest, partial(check_manifest, package)
-        yield package.manifest, partial(check_unexported, package, paths)
+        yield package.manifest, partial(check_unexported, package, paths, listed)
         interactions = [path for path in paths if path.endswith('.interactions')]
         for path in interactions:
             others = [other for other in interactions if other != path]

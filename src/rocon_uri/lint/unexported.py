@@ -7,7 +7,7 @@ rules files cannot be told from other YAML.
 from __future__ import annotations
 
 import os
-from typing import Iterable, List, Set
+from typing import Collection, Iterable, List, Set
 
 from rocon_uri.apps.app_file import InvalidApp
 from rocon_uri.apps.installed import installed_apps, installed_files
@@ -19,26 +19,44 @@ from rocon_uri.sources.wording import near_misses, quoted
 from rocon_uri.sources.yaml_data import YamlError
 from rocon_uri.sources.yaml_source import load, read_file
 
-__all__ = ['check_unexported']
+__all__ = ['check_unexported', 'listed_apps']
 
 _SUFFIXES = ('.app', '.installed', '.rapp', '.yaml', '.yml')
 _TAGS = {'interface': 'capability_interface', 'provider': 'capability_provider',
          'semantic_interface': 'semantic_capability_interface'}
 
 
-def check_unexported(package: Package, paths: Iterable[str]) -> List[Finding]:
+def listed_apps(packages: Iterable[Package]) -> Set[str]:
+    """
+    The apps that ``.installed`` files list, which may be apps of other packages.
+
+    :param packages: iterable of `Package`, those that the files are in
+    :returns: set of str, ``package/name``
+    """
+    names: Set[str] = set()
+    for package in packages:
+        for path in installed_files(package):
+            try:
+                names.update(name for name, _ in installed_apps(path))
+            except InvalidApp:      # which is a finding
+                continue
+    return names
+
+
+def check_unexported(package: Package, paths: Iterable[str], listed: Collection[str]
+                     ) -> List[Finding]:
     """
     Find the apps and specs of a package that no export leads to.
 
     :param Package package: the package
     :param paths: iterable of str, the files in it
+    :param listed: collection of str, as `listed_apps` returns it
     :returns: list of `Finding`
     """
     exported: Set[str] = set()
     for tag in FILE_EXPORTS:
         exported.update(map(os.path.realpath, package.files(tag)))
     installed = set(map(os.path.realpath, installed_files(package)))
-    listed = _listed_apps(package)
     findings: List[Finding] = []
     for path in paths:
         if not path.endswith(_SUFFIXES) or _is_test(path, package):
@@ -48,10 +66,9 @@ def check_unexported(package: Package, paths: Iterable[str]) -> List[Finding]:
         if suffix == '.installed' and os.path.realpath(path) not in installed:
             file.warn('the file is in no folder that the package exports as app_dir, so '
                       'app_manager does not read it', (1, 1), 'outside-app-dir')
-        elif suffix == '.app' and name not in listed:
-            file.warn('no .installed file of the package lists this app, so app_manager does not '
-                      "know it (expected 'app: %s/%s')" % (package.name, name), (1, 1),
-                      'not-listed')
+        elif suffix == '.app' and '%s/%s' % (package.name, name) not in listed:
+            file.warn('no .installed file lists this app, so app_manager does not know it '
+                      "(expected 'app: %s/%s')" % (package.name, name), (1, 1), 'not-listed')
         elif os.path.realpath(path) not in exported:
             tag = _tag_of(path)
             if tag:
@@ -61,18 +78,6 @@ def check_unexported(package: Package, paths: Iterable[str]) -> List[Finding]:
                     (1, 1), 'not-exported')
         findings += file.findings
     return findings
-
-
-def _listed_apps(package: Package) -> Set[str]:
-    """The names, without the package, of its apps that its .installed files list."""
-    names: Set[str] = set()
-    for path in installed_files(package):
-        try:
-            listed = [name.partition('/') for name, _ in installed_apps(path)]
-        except InvalidApp:      # which is a finding
-            continue
-        names.update(name for owner, _, name in listed if owner == package.name)
-    return names
 
 
 def _is_test(path: str, package: Package) -> bool:
