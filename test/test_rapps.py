@@ -465,6 +465,7 @@ def test_what_was_meant_by_a_name_that_is_no_path(tmp_path, launch, what, meant)
                             str(folder / 'rapps' / 'dance' / 'dance.rapp'))
     [reason] = runnable(rapp, 'rocon:/pr2', SpecIndex()).reasons
     problem = ('does not exist' if what is None else
-               what + ', expected a path relative to the file that names it')
+               what + ', expected a path relative to the file that names it'
+               + ', in the same package' * ('theirs' in launch))
     assert (reason.id, str(reason)) == ('launch-missing', "launch file '%s' %s%s" % (
         launch, problem, " (did you mean '%s'?)" % meant if meant else ''))

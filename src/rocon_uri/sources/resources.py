@@ -182,7 +182,8 @@ paths=('radio.launch',))
         beside = os.path.join(os.path.dirname(os.path.abspath(package_folder)), package, MANIFEST)
         if name.startswith(('$', 'package://')) or package == own_name or os.path.isfile(beside):
             paths = _named(file, package_folder) if package == own_name else []
-            return NotAPath(what + ', expected a path relative to the file that names it',
+            where = '' if package == own_name else ', in the same package'
+            return NotAPath(what + ', expected a path relative to the file that names it' + where,
                             tuple(os.path.relpath(path, folder) for path in paths[:3]))
     return None
 
