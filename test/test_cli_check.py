@@ -302,3 +302,11 @@ def test_carets_end_where_a_long_line_is_cut(workspace):
     [(line, below)] = re.findall('    (launch.*)\n    ( *\\^+)\n', shown)
     assert line.endswith('...') and len(below) == len(line) - 3
     assert line[below.index('^'):len(below)] == name[:below.count('^')]
+
+
+def test_carets_are_below_text_after_wide_characters(workspace):
+    (workspace / DANCE).write_text('{display: \u8e0a\u308b, description: e\u0301, icon: no.png}')
+    shown = run_on_terminal('specs', 'check', str(workspace / DANCE), NO_COLOR='1')
+    [(line, below)] = re.findall('    (.*)\n    ( *\\^{6})\n', shown)
+    # two columns more for the first two characters, one less for the accent
+    assert line[below.index('^') - 1:].startswith('no.png')

@@ -82,6 +82,11 @@ def test_carets_stand_under_the_fault(text, field, value, marked, says):
     assert uri[columns] == ''.join(c if c.isprintable() else '?' for c in marked)
 
 
+def test_carets_stand_under_characters_that_are_two_columns_wide():
+    _, uri, carets, _ = error_of('rocon:/\u8e0a|pr2').pretty().split('\n')
+    assert carets == ' ' * uri.index('\u8e0a') + '^^'
+
+
 @pytest.mark.parametrize('before', [0, 200])
 @pytest.mark.parametrize('length', [1, 3, 1000])
 @pytest.mark.parametrize('after', [0, 50])

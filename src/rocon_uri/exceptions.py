@@ -5,7 +5,7 @@ The text of an error is one line fit for a log, whatever the input was. Its part
 """
 from __future__ import annotations
 
-from rocon_uri.sources.wording import did_you_mean, near_misses, near_parts, quoted
+from rocon_uri.sources.wording import carets, did_you_mean, near_misses, near_parts, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -101,8 +101,8 @@ class RoconURIValueError(ValueError):
         before = '...' if left else ''
         shown = ''.join(c if c.isprintable() else '?' for c in self.uri[left:right])
         after = '...' if right < len(self.uri) else ''
-        carets = '^' * max(1, min(end, right) - start)
-        return before + shown + after, ' ' * (len(before) + start - left) + carets
+        at = start - left
+        return before + shown + after, carets(before + shown[:at], shown[at:min(end, right) - left])
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return type(self), (self.problem, self.uri, self.field, self.value, self.span,

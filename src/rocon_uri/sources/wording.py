@@ -7,7 +7,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Collection, Dict, Iterable, List, Sequence
 
-__all__ = ['NamesByPart', 'NearMisses', 'cannot_be_read', 'did_you_mean', 'expectation',
+__all__ = ['NamesByPart', 'NearMisses', 'cannot_be_read', 'carets', 'did_you_mean', 'expectation',
            'near_misses', 'near_parts', 'printable', 'quoted', 'quoted_path', 'shown',
            'with_article']
 
@@ -52,6 +52,27 @@ def cannot_be_read(error: OSError) -> str:
     'cannot be read: Permission denied'
     """
     return 'cannot be read: %s' % (error.strerror or error)
+
+
+def carets(before: str, marked: str) -> str:
+    """
+    The line below a text that marks what comes after the first part of it.
+
+    A terminal shows some characters, as those of Chinese, two columns wide, and accents with none.
+
+    >>> print(carets('rocon:/', 'pr3')), print(carets('\u8e0a: ', 'icon'))
+           ^^^
+        ^^^^
+    (None, None)
+    """
+    return ' ' * _columns(before) + '^' * max(1, _columns(marked))
+
+
+def _columns(text: str) -> int:
+    if text.isascii():
+        return len(text)
+    from unicodedata import combining, east_asian_width     # here, since few texts need it
+    return sum(0 if combining(c) else 2 if east_asian_width(c) in 'FW' else 1 for c in text)
 
 
 def near_misses(text: str, candidates: Iterable[str]) -> List[str]:

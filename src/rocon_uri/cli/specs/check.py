@@ -37,7 +37,7 @@ from rocon_uri.cli.given import say
 from rocon_uri.cli.packages import (
     PackageReport, add_package_path, escape_unencodable, package_path, quiet_loggers)
 from rocon_uri.sources.wording import (
-    did_you_mean, near_misses, printable, quoted, quoted_path)
+    carets, did_you_mean, near_misses, printable, quoted, quoted_path)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -173,8 +173,8 @@ def _marked(line: str, column: int, problem: str) -> List[str]:
     at = column - 1 - start
     quoted = [len(text) for text in re.findall("'([^']+)'", problem)
               if line.startswith(text, column - 1)]
-    carets = '^' * max(1, min(max(quoted, default=1), len(shown) - at))
-    return [before + shown + after, ' ' * (len(before) + at) + carets]
+    return [before + shown + after,
+            carets(before + shown[:at], shown[at:at + max(quoted, default=1)])]
 
 
 def _explain(args: argparse.Namespace, report: PackageReport) -> int:
