@@ -139,6 +139,18 @@ def test_robots_of_a_file_without_a_page_are_refused(capsys: Any) -> None:
     assert capsys.readouterr() == ('', 'rocon_uri apps: error: --robots-in needs --html\n')
 
 
+@pytest.mark.parametrize('options, says', [
+    (['--all'], '--html takes neither --all nor --running'),
+    (['--running'], '--html takes neither --all nor --running'),
+    (['--robots-in', FLEET, '--robot', 'rocon:/pr2'], '--robots-in or with --robot')])
+def test_what_a_page_of_apps_has_no_use_for_is_refused(
+        options: List[str], says: str, tmp_path: Path, capsys: Any) -> None:
+    page = tmp_path / 'fleet.html'
+    given = ['apps', '--package-path', str(EXAMPLES), '--html', str(page)]
+    assert main([*given, *options]) == 2 and says in capsys.readouterr().err
+    assert not page.exists()
+
+
 @pytest.mark.parametrize('verb', ['match', 'apps'])
 def test_a_page_that_cannot_be_written_is_an_error(verb: str, capsys: Any) -> None:
     given = {'match': ['--matrix', 'rocon:/pr2', '--in', FLEET],
@@ -204,6 +216,13 @@ def test_the_matrix_as_a_table(form: str, delimiter: str, capsys: Any) -> None:
 def test_a_page_or_a_table_is_of_a_matrix(option: List[str], capsys: Any) -> None:
     assert main(['match', 'rocon:/pr2', '--in', FLEET, *option]) == 2
     assert '--html and --format need --matrix' in capsys.readouterr().err
+
+
+def test_the_matrix_has_one_form(tmp_path: Path, capsys: Any) -> None:
+    page = tmp_path / 'fleet.html'
+    assert main(['match', 'rocon:/pr2', '--in', FLEET, '--matrix', '--html', str(page),
+                 '--format', 'csv']) == 2
+    assert 'give --html or --format' in capsys.readouterr().err and not page.exists()
 
 
 def on_terminal(columns: int, apps: int, folder: Path) -> List[str]:

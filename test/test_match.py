@@ -250,6 +250,9 @@ def test_why_is_check(more, capsys):
 
 @pytest.mark.parametrize('arguments', [
     ['--why', 'rocon:/pr2'], ['--why', 'rocon:/pr2', 'rocon:/pr2', 'rocon:/pr2'],
+    ['--why', 'rocon:/pr2', 'rocon:/pr2', '--matrix'],
+    ['--why', 'rocon:/pr2', 'rocon:/pr2', '--html', 'x.html'],
+    ['--why', 'rocon:/pr2', 'rocon:/pr2', '--format', 'csv'],
     ['--why', 'rocon:/pr2', 'rocon:/pr2', '--in', '-'], ['rocon:/pr2', 'rocon:/pr2']])
 def test_why_takes_two_uris_and_match_a_file(arguments, capsys):
     assert main(['match', *arguments]) == 2

@@ -21,7 +21,7 @@ providers that start for it, and the names in each capability: what the interfac
 calls them, and what the robot and the app call them where that differs.
 
 With --html, FILE becomes a page that filters, sorts and has the reasons behind each
-cell. It needs no network. Nothing else is printed.
+cell. It needs no network, and has all apps; nothing else is printed.
 
 Exit status: 0 if an app runs, or each NAME does; 1 if not; 2 if the robot, a NAME,
 a folder or the FILE was bad, though the rest is judged, even for a robot that is
@@ -103,8 +103,9 @@ def _reason_id(text: str) -> str:
 
 
 def main(args: argparse.Namespace) -> int:
-    if args.robots_in is not None and args.html is None:
-        say('rocon_uri apps: error: --robots-in needs --html')
+    error = _wrong_use(args)
+    if error:
+        say('rocon_uri apps: error: ' + error)
         return 2
     report, exported = workspace(args)
     apps = named_apps(args.names, exported, report) if args.names else list(exported.apps())
@@ -145,6 +146,16 @@ def main(args: argparse.Namespace) -> int:
     if robot is not None:
         Notes().mention_one_slash(robot)
     return report.status or (0 if (all if args.names else any)(verdicts) else 1)
+
+
+def _wrong_use(args: argparse.Namespace) -> str:
+    if args.html is None:
+        return '--robots-in needs --html' if args.robots_in is not None else ''
+    if args.robots_in is not None and args.robot is not None:
+        return 'give the robots with --robots-in or with --robot'
+    if args.all or args.running:
+        return '--html takes neither --all nor --running: the page has all apps, and not what runs'
+    return ''
 
 
 def _show(robot: GivenURI, verdicts: List[Verdict], show_all: bool,

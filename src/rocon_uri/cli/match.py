@@ -120,9 +120,12 @@ def main(args: argparse.Namespace) -> int:
 
 def _wrong_use(args: argparse.Namespace) -> str:
     if args.why:
-        if len(args.requests) == 2 and args.requests_in is args.resources_in is args.into is None:
+        others = args.requests_in, args.resources_in, args.into, args.html, args.matrix or None
+        if len(args.requests) == 2 and set(others) == {None} and args.format == 'text':
             return ''
-        return '--why takes a REQUEST and a URI to compare it with, and no file'
+        return '--why takes a REQUEST and a URI to compare it with, and no file or matrix'
+    if args.html is not None and args.format != 'text':
+        return 'give --html or --format'
     if not args.matrix and (args.html is not None or args.format != 'text'):
         return '--html and --format need --matrix'
     if args.resources_in is None:
