@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+from importlib import import_module
 
 import pytest
 from sources import ROOT, SOURCE
@@ -32,6 +33,16 @@ def test_without_arguments_there_is_a_line_for_each_verb(capsys):
     lines = capsys.readouterr().err.splitlines()
     assert [line.split()[0] for line in lines] == ['usage:', *VERBS]
     assert 'rocon_uri help VERB' in lines[0] and len(lines) <= 12
+
+
+@pytest.mark.parametrize('verb', ['specs', 'capabilities'])
+@pytest.mark.parametrize('more', [[], ['--json']])
+def test_a_verb_without_one_of_its_own_has_a_line_for_each(verb, more, capsys):
+    assert main([verb, *more]) == 2
+    out, err = capsys.readouterr()
+    assert [line.split()[0] for line in err.splitlines()] == [
+        'usage:', *import_module('rocon_uri.cli.' + verb).VERBS]
+    assert out == '' and 'rocon_uri help %s VERB' % verb in err
 
 
 @pytest.mark.parametrize('names, title', [

@@ -21,7 +21,7 @@ import re
 import sys
 from importlib import import_module
 
-from rocon_uri.cli.parsers import verb_parser, whole_parser
+from rocon_uri.cli.parsers import overview, verb_parser, whole_parser
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -127,7 +127,7 @@ def _run(argv: List[str]) -> int:
             quoted(argv[0]), did_you_mean(near_misses(argv[0], (*VERBS, 'help')))),
             file=sys.stderr)
     else:
-        print(_overview(), file=sys.stderr)
+        print(overview(VERBS), file=sys.stderr)
     return 2
 
 
@@ -141,14 +141,6 @@ def _help(names: List[str]) -> int:
         print(json_forms(VERBS))
         return 0
     return _run([*names, '--help'])
-
-
-def _overview() -> str:
-    """A line for each verb, and one that says how to learn more."""
-    from rocon_uri.cli.parsers import summary
-    lines = ['usage: rocon_uri VERB ...    (rocon_uri help VERB says more)']
-    lines += ['  %-14s%s' % (verb, summary(verb)) for verb in VERBS]
-    return '\n'.join(lines)
 
 
 def _do(args: argparse.Namespace, verb: str) -> int:

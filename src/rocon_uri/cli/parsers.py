@@ -11,7 +11,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Callable, Iterable, List, Optional, Sequence, Tuple
 
-__all__ = ['Parser', 'described', 'summary', 'verb_parser', 'whole_parser']
+__all__ = ['Parser', 'described', 'overview', 'summary', 'verb_parser', 'whole_parser']
 
 _WIDEST = 100       # columns of help; longer lines are hard to read
 _JSON = '\nJSON: '  # what a docstring says after it is for ``rocon_uri help json``
@@ -160,3 +160,19 @@ def json_form(doc: Optional[str]) -> str:
 def summary(name: str) -> str:
     """What a verb does, in one line."""
     return described(import_module('rocon_uri.cli.' + name).__doc__).partition('\n')[0].rstrip('.')
+
+
+def overview(verbs: Iterable[str], verb: str = '') -> str:
+    """
+    A line for each verb, or each verb of a verb, and one that says how to learn more.
+
+    >>> print(overview(['list', 'show'], 'specs'))
+    usage: rocon_uri specs VERB ...    (rocon_uri help specs VERB says more)
+      list          List capability interfaces, semantic interfaces and providers
+      show          Show a capability spec and what it takes to run it
+    """
+    command = verb + ' VERB' if verb else 'VERB'
+    lines = ['usage: rocon_uri %s ...    (rocon_uri help %s says more)' % (command, command)]
+    lines += ['  %-14s%s' % (name, summary('%s.%s' % (verb, name) if verb else name))
+              for name in verbs]
+    return '\n'.join(lines)

@@ -2,15 +2,16 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from importlib import import_module
 
-from rocon_uri.cli.parsers import described
+from rocon_uri.cli.parsers import described, overview
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Callable, Iterable
 
-__all__ = ['add_subverbs']
+__all__ = ['add_subverbs', 'without_verb']
 
 
 def add_subverbs(parser: argparse.ArgumentParser, package: str, names: Iterable[str],
@@ -19,13 +20,15 @@ def add_subverbs(parser: argparse.ArgumentParser, package: str, names: Iterable[
     """
     Let a verb take the name of one of its own verbs, and its arguments.
 
-    :param parser: that of the verb; the ``main`` of the one that is chosen becomes ``verb_main``
+    The ``main`` of the one that is chosen becomes ``verb_main``, which is None without one.
+
+    :param parser: that of the verb
     :param str package: the package in which each verb is a module
     :param names: iterable of str, the names of the verbs
     :param add_shared: adds the arguments that all of them take
     """
     subparsers = parser.add_subparsers(metavar='VERB', title='verbs', prog=parser.prog)
-    subparsers.required = True
+    parser.set_defaults(verb_main=None)
     for name in names:
         verb = import_module('%s.%s' % (package, name))
         description = described(verb.__doc__)
@@ -37,3 +40,9 @@ def add_subverbs(parser: argparse.ArgumentParser, package: str, names: Iterable[
         verb_parser.add_argument('--json', action='store_true', default=argparse.SUPPRESS,
                                  help='print one JSON object')
         verb_parser.set_defaults(verb_main=verb.main)
+
+
+def without_verb(verb: str, names: Iterable[str]) -> int:
+    """Say which verbs a verb has, since none was chosen; return the exit status."""
+    print(overview(names, verb), file=sys.stderr)
+    return 2

@@ -22,7 +22,7 @@ import argparse
 from rocon_uri.cli.display import print_json
 from rocon_uri.cli.packages import PackageReport
 from rocon_uri.cli.running import Refused, RunningServer, Unreachable, add_server
-from rocon_uri.cli.subverbs import add_subverbs
+from rocon_uri.cli.subverbs import add_subverbs, without_verb
 
 __all__ = ['add_arguments', 'main']
 
@@ -34,6 +34,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
+    if args.verb_main is None:
+        return without_verb('capabilities', VERBS)
     report = PackageReport(args.json)
     try:
         status: int = args.verb_main(RunningServer(args.server), args)

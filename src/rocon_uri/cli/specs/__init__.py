@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import argparse
 
-from rocon_uri.cli.subverbs import add_subverbs
+from rocon_uri.cli.subverbs import add_subverbs, without_verb
 
 __all__ = ['add_arguments', 'main']
 
@@ -28,5 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
+    if args.verb_main is None:
+        return without_verb('specs', VERBS)
     status: int = args.verb_main(args)
     return status
