@@ -17,7 +17,7 @@ __all__ = ['Server', 'find_binaries']
 # writing all to the disk, as after a crash.
 _GUARD = '"$@" </dev/null & read line; kill -QUIT $!; wait $!'
 
-_PATIENCE = 60      # seconds for it to start, and to end
+_PATIENCE = 300      # seconds for it to start, and to end
 
 
 def find_binaries() -> Optional[str]:
@@ -55,7 +55,7 @@ class Server:
                 timeout=_PATIENCE)
             self.start()
         except BaseException:
-            shutil.rmtree(self.folder)
+            shutil.rmtree(self.folder, ignore_errors=True)  # initdb may still write into it
             raise
 
     def start(self) -> None:

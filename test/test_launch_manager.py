@@ -467,12 +467,12 @@ def test_a_node_that_writes_without_end_fills_no_memory(run, provider, tmp_path)
                 stdout=subprocess.DEVNULL) as process:
         wait_for_line(process.stderr, b'started')
 
-        def cpu_seconds():
-            with open('/proc/%d/stat' % process.pid) as stream:
-                return int(stream.read().rpartition(')')[2].split()[11]) / os.sysconf('SC_CLK_TCK')
+        def bytes_read():
+            with open('/proc/%d/io' % process.pid) as stream:
+                return int(stream.readline().partition('rchar: ')[2])
 
-        begin = cpu_seconds()
-        wait_until(lambda: cpu_seconds() > begin + 0.5)     # as long as it has read that much
+        begin = bytes_read()
+        wait_until(lambda: bytes_read() > begin + 3e8)
         with open('/proc/%d/statm' % process.pid) as stream:
             megabytes = int(stream.read().split()[1]) * os.sysconf('SC_PAGE_SIZE') / 1e6
         assert megabytes < 100

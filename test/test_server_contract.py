@@ -132,9 +132,9 @@ def test_the_heartbeat_timeout_can_be_turned_off(robot):
     try:
         with robot.server({'nodelet_manager': False}) as server:
             bond_id = server.call('establish_bond').bond_id
-            server.use('Base', bond_id)
             publisher = rospy.Publisher(server.name + '/bonds', Status, queue_size=10)
             eventually(lambda: publisher.get_num_connections() > 0)
+            server.use('Base', bond_id)
             publisher.publish(Status(id=bond_id, instance_id='somebody', active=True,
                                      heartbeat_timeout=4, heartbeat_period=1))
             eventually(lambda: 'Heartbeat timeout is disabled' in server.log.read_text())

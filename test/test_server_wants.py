@@ -168,10 +168,10 @@ def test_a_client_killed_right_after_its_bond_formed_is_noticed(server):
     """A27: F24. It sends one heartbeat and no second."""
     import rospy
     from bond.msg import Status
-    bond_id = server.call('establish_bond').bond_id
-    server.use('Base', bond_id)
     publisher = rospy.Publisher(server.name + '/bonds', Status, queue_size=10)
+    bond_id = server.call('establish_bond').bond_id
     eventually(lambda: publisher.get_num_connections() > 0)
+    server.use('Base', bond_id)
     begin = time.monotonic()
     publisher.publish(Status(id=bond_id, instance_id='somebody', active=True,
                              heartbeat_timeout=4, heartbeat_period=1))
