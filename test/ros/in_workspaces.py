@@ -28,14 +28,15 @@ pytestmark = unless_built(
 #: in both orders, from both packages
 IMPORTS = ['capabilities.msg, capabilities.srv, capabilities.discovery, rocon_uri.msg',
            'rocon_uri.uri, rocon_uri.msg, capabilities.client, capabilities.msg']
+#: the rosrun of Ubuntu 20.04 itself asks whether to run a script or catkin's wrapper of it: 1
 COMMANDS = [
     'test -f "$(rospack find capabilities)/package.xml"',
     'test -f "$(rospack find rocon_uri)/package.xml"',
     'test "$(rosmsg md5 capabilities/CapabilityEvent)" = 5a0d82ee1a8e7a5d0b058f0b20305b18',
     'test "$(rossrv md5 capabilities/StartCapability)" = 736529805295984ddb5ab334f50db336',
-    'rosrun capabilities capability_server --help </dev/null | grep -q package_path',
-    'rosrun capabilities capabilities --help </dev/null | grep -q status',
-    'rosrun rocon_uri rocon_uri parse rocon:/pr2 </dev/null >/dev/null',
+    'rosrun capabilities capability_server --help <<< 1 | grep -q package_path',
+    'rosrun capabilities capabilities --help <<< 1 | grep -q status',
+    'rosrun rocon_uri rocon_uri parse rocon:/pr2 <<< 1 >/dev/null',
     'roslaunch capabilities capability_server.launch --nodes | grep -qx /capability_server',
     *('/usr/bin/python3 -c "import %s"' % modules for modules in IMPORTS)]
 
