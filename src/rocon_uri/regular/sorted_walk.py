@@ -62,7 +62,7 @@ class SortedWalk:
                 matches[start:end] = self._each(names[start:end], depth, here)
                 continue
             shared = commonprefix((names[start], names[end - 1]))
-            here = self._after(shared[depth:], here)
+            here = self._after(shared[depth:].encode(), here)
             if here[_DECIDES]:
                 matches[start:end] = [here[_ACCEPTS]] * (end - start)
                 continue
@@ -77,19 +77,21 @@ class SortedWalk:
     def _each(self, names: List[str], depth: int, here: _State) -> List[bool]:
         """Are these names in the language? Their first ``depth`` characters lead to this state."""
         found: List[bool] = []
-        for name in names:
+        # all encoded at once: to encode each of them would take a tenth of the time of a uuid
+        octets, shared = '\n'.join(names).encode(), names[0][:depth].encode()
+        for rest in octets[depth:].split(b'\n' + shared):
             state = here
             try:
-                for octet in name[depth:].encode():
+                for octet in rest:
                     state = state[octet]
                 found.append(state[_ACCEPTS])
             except IndexError:      # on the way is a state that is not complete
-                found.append(self._after(name[depth:], here)[_ACCEPTS])
+                found.append(self._after(rest, here)[_ACCEPTS])
         return found
 
-    def _after(self, text: str, state: _State) -> _State:
+    def _after(self, octets: bytes, state: _State) -> _State:
         """The state that a text leads to, complete."""
-        for octet in text.encode():
+        for octet in octets:
             state = self._completed(state)[octet]
         return self._completed(state)
 
