@@ -175,7 +175,7 @@ class TestPackageIndex:
         (MANIFEST % ('', ''), 3, 3, 'name'),
         (MANIFEST % ('a_package', '<a>' * 5000 + '</a>' * 5000), None, None, 'recursion'),
         (MANIFEST % ('a_package', ' ' * 2 ** 20), None, None, 'larger than 1 MiB'),
-        (b'<package>\xff</package>', None, None, 'utf-8'),
+        (b'<package>\xff</package>', 1, 10, 'not UTF-8'),
         ('<!DOCTYPE a [<!ENTITY a "a">]>' + MANIFEST % ('a_package', '&a;'), None, None,
          'declares entities'),
     ], ids=['empty', 'not XML', 'other root', 'nothing in it', 'format 4', 'format two',

@@ -301,7 +301,8 @@ def make_huge(path):
 
 
 @pytest.mark.parametrize('make, reason', [
-    (make, reason) for make, _, reason in UNREADABLE if make not in (make_missing, make_unreadable)
+    (make, 'cannot be read: ' + reason) for make, _, reason in UNREADABLE
+    if make not in (make_missing, make_unreadable)
 ] + [(make_huge, 'larger than 1 MiB, which is all that is read')])
 def test_a_manifest_that_cannot_be_read(workspace, make, reason):
     manifest = workspace / 'bad' / 'package.xml'

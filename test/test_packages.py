@@ -91,6 +91,20 @@ def test_a_manifest_is_utf_8_whatever_it_says(tmp_path: Path, encoding: str) -> 
         str(tmp_path / '\xe9')]
 
 
+@pytest.mark.parametrize('encoding, problem, place', [
+    ('latin-1', 'not UTF-8 (Latin-1?): byte 0xe9 at offset 56', (1, 57)),
+    ('utf-16', 'UTF-16, not UTF-8: byte 0xff at offset 0', (1, 1)),
+    ('utf-16-be', 'UTF-16, not UTF-8: byte 0x00 at offset 0', (1, 1)),
+])
+def test_another_encoding_is_named_with_the_byte(
+        tmp_path: Path, encoding: str, problem: str, place: Place) -> None:
+    path = tmp_path / 'package.xml'
+    path.write_bytes((ROOT_TAG % '<rocon_app>\xe9</rocon_app>').encode(encoding))
+    with pytest.raises(PackageError) as caught:
+        package_from_manifest(str(path))
+    assert (caught.value.problem, caught.value.place) == (problem, place)
+
+
 @pytest.fixture
 def deep(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A folder with more folders below one another than Python recurses, and a file in the last."""
@@ -155,7 +169,7 @@ def test_a_package_that_is_removed_while_it_is_read(
     monkeypatch.setattr(packages, 'package_folders', folders)
     errors: List[PackageError] = []
     assert list(find_packages([str(tmp_path)], errors)) == ['a']
-    assert list(map(str, errors)) == ['%s: No such file or directory' % gone]
+    assert list(map(str, errors)) == ['%s: cannot be read: No such file or directory' % gone]
 
 
 def test_a_folder_that_cannot_be_read_is_a_fault(

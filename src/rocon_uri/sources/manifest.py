@@ -12,9 +12,10 @@ import re
 from typing import TYPE_CHECKING, Dict, List, NamedTuple, Optional, Tuple, Union
 from xml.parsers import expat
 
+from rocon_uri.sources.encoding import NOT_UTF8, byte_at, utf16_problem
 from rocon_uri.sources.located import LocatedError, with_id
 from rocon_uri.sources.wording import quoted
-from rocon_uri.sources.yaml_data import MAX_SIZE
+from rocon_uri.sources.yaml_data import MAX_SIZE, end_position
 from rocon_uri.sources.yaml_source import read_file
 
 if TYPE_CHECKING:
@@ -125,11 +126,17 @@ def read_manifest(path: str) -> str:
     """
     try:
         content = read_file(path)
-        text = content.decode('utf-8')
     except OSError as error:
-        raise with_id(PackageError(error.strerror or str(error), path), 'cannot-read') from error
+        raise with_id(PackageError('cannot be read: %s' % (error.strerror or error), path),
+                      'cannot-read') from error
+    problem = utf16_problem(content)
+    if problem:
+        raise PackageError(problem, path, 1, 1)
+    try:
+        text = content.decode('utf-8')
     except UnicodeDecodeError as error:
-        raise PackageError('not a valid manifest: %s' % error, path) from error
+        raise PackageError('%s: %s' % (NOT_UTF8, byte_at(content[error.start], error.start)), path,
+                           *end_position(content[:error.start].decode('utf-8'))) from error
     if len(content) > MAX_SIZE:
         raise PackageError('larger than 1 MiB, which is all that is read', path)
     if '<!ENTITY' in text:  # not every expat bounds how large they become
