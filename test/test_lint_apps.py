@@ -40,6 +40,12 @@ def found(folder: Path, monkeypatch: Any, dance: str = DANCE, name: str = 'dance
         "1:11: warning: platform 'turtelbot2' is not registered (did you mean 'turtlebot2' or "
         "'turtlebot' or 'turtlebot4'?); it is compared with that of the robot as text "
         '[unregistered-platform]']),
+    (DANCE.replace('pr2', 'nao'), [
+        "1:11: warning: platform 'nao' is not registered (did you mean 'aldebaran_nao'?); it is "
+        'compared with that of the robot as text [unregistered-platform]']),
+    (DANCE.replace('pr2', 'All'), [
+        "1:11: warning: platform 'All' is not registered (did you mean 'all'?); it is compared "
+        'with that of the robot as text [unregistered-platform]']),
     (DANCE.replace('pr2', 'mobile_device'), [
         "1:11: warning: platform 'mobile_device' is a group, which app_manager does not know: it "
         'compares the platform with that of the robot as text [group-platform]']),

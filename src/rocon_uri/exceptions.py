@@ -5,7 +5,7 @@ The text of an error is one line fit for a log, whatever the input was. Its part
 """
 from __future__ import annotations
 
-from rocon_uri.sources.wording import carets, did_you_mean, near_misses, near_parts, quoted
+from rocon_uri.sources.wording import carets, did_you_mean, near_values, quoted
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -58,9 +58,8 @@ class RoconURIValueError(ValueError):
 
         Near misses by letters come before those by the parts of a name.
         """
-        candidates = list(self._candidates() if callable(self._candidates) else self._candidates)
-        return list(dict.fromkeys(near_misses(self.value, candidates)
-                                  + near_parts(self.value, candidates)))[:3]
+        candidates = self._candidates() if callable(self._candidates) else self._candidates
+        return near_values(self.value, candidates)
 
     def within(self, uri: str, span: Tuple[int, int]) -> 'RoconURIValueError':
         """An error of the same class, placed at a span of a larger text."""

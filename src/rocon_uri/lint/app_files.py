@@ -3,14 +3,14 @@ from __future__ import annotations
 
 from typing import List
 
-from rocon_uri.apps.app_file import KEYS, WHAT_RESOURCES_ARE, AppFile, launch_file_fault
+from rocon_uri.apps.app_file import ALL, KEYS, WHAT_RESOURCES_ARE, AppFile, launch_file_fault
 from rocon_uri.grammar import is_rocon_app
 from rocon_uri.lint.checked_file import CheckedFile, is_inside
 from rocon_uri.lint.finding import ERROR, WARNING, Finding
 from rocon_uri.sources.checked import CheckedMapping
 from rocon_uri.sources.located import NOWHERE
 from rocon_uri.sources.resources import MISSING
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted
+from rocon_uri.sources.wording import did_you_mean, near_values, quoted
 from rocon_uri.workspace import Workspace
 
 __all__ = ['check_app_file']
@@ -49,8 +49,9 @@ def check_app_file(app: AppFile, package_folder: str, workspace: Workspace) -> L
 def _check_platform(app: AppFile, file: CheckedFile, workspace: Workspace) -> None:
     registered = workspace.vocabulary.field('hardware_platform')
     if not app.is_registered(workspace.vocabulary):
+        meant = near_values(app.platform, (ALL, *registered))
         file.warn('platform %s is not registered%s; it is compared with that of the robot as text'
-                  % (quoted(app.platform), did_you_mean(near_misses(app.platform, registered))),
+                  % (quoted(app.platform), did_you_mean(meant)),
                   app.position('platform'), 'unregistered-platform')
     elif app.is_group(workspace.vocabulary):
         file.warn('platform %s is a group, which app_manager does not know: it compares the '

@@ -14,7 +14,7 @@ from xml.parsers import expat
 
 from rocon_uri.sources.encoding import NOT_UTF8, byte_at, utf16_problem
 from rocon_uri.sources.located import LocatedError, with_id
-from rocon_uri.sources.wording import quoted
+from rocon_uri.sources.wording import cannot_be_read, quoted
 from rocon_uri.sources.yaml_data import MAX_SIZE, end_position
 from rocon_uri.sources.yaml_source import read_file
 
@@ -127,8 +127,7 @@ def read_manifest(path: str) -> str:
     try:
         content = read_file(path)
     except OSError as error:
-        raise with_id(PackageError('cannot be read: %s' % (error.strerror or error), path),
-                      'cannot-read') from error
+        raise with_id(PackageError(cannot_be_read(error), path), 'cannot-read') from error
     problem = utf16_problem(content)
     if problem:
         raise PackageError(problem, path, 1, 1)

@@ -8,8 +8,8 @@ if TYPE_CHECKING:
     from typing import Collection, Dict, Iterable, List, Sequence
 
 __all__ = ['NamesByPart', 'NearMisses', 'cannot_be_read', 'carets', 'did_you_mean', 'expectation',
-           'near_misses', 'near_parts', 'printable', 'quoted', 'quoted_path', 'shown',
-           'with_article']
+           'near_misses', 'near_parts', 'near_values', 'printable', 'quoted', 'quoted_path',
+           'shown', 'with_article']
 
 _QUOTED_LENGTH = 80     # characters of the offending text that a line shows
 _FEW_NAMES = 500        # of which each is compared, at about 20 us
@@ -176,6 +176,17 @@ def near_parts(text: str, candidates: Iterable[str]) -> List[str]:
              for others in [set(candidate.lower().split('_'))]
              if parts <= others or others <= parts]
     return [candidate for _, candidate in sorted(found)[:3]]
+
+
+def near_values(text: str, candidates: Iterable[str]) -> List[str]:
+    """
+    The registered values that were probably meant: at most three `near_misses`, then `near_parts`.
+
+    >>> near_values('nao', ['aldebaran_nao', 'nano'])
+    ['nano', 'aldebaran_nao']
+    """
+    known = list(candidates)
+    return list(dict.fromkeys(near_misses(text, known) + near_parts(text, known)))[:3]
 
 
 def with_article(noun: str) -> str:
