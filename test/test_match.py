@@ -12,6 +12,7 @@ from terminal import open_terminal
 
 from rocon_uri import RoconURIValueError, is_compatible
 from rocon_uri.cli import main
+from rocon_uri.uri import parse_once as real_parse_once
 
 REQUESTS = ['rocon:/pr2', 'rocon:/*/bob_1*/noetic', 'rocon:/robot/[a-z]+_[0-9]*7']
 
@@ -149,6 +150,23 @@ def test_a_fault_of_many_lines_is_said_once_and_counted(tmp_path, capsys):
         assert error.startswith(start)
     assert errors[-2].endswith('also on lines 2, 3, 4, 5, 6 and 997 more')
     assert errors[-1].endswith('also on line 1008')
+
+
+def test_a_value_that_many_lines_have_raises_one_error(tmp_path, capsys, monkeypatch):
+    # to raise an error for each line takes ten times as long as to read one without a fault
+    refused = []
+
+    def parse_once(text, vocabulary):
+        try:
+            return real_parse_once(text, vocabulary)
+        except RoconURIValueError:
+            refused.append(text)
+            raise
+
+    monkeypatch.setattr('rocon_uri.cli.given.parse_once', parse_once)
+    content = b'rocon:/our_robot/bob\n' * 100 + b'rocon:/our_robot\n' * 100
+    errors_of(content, tmp_path, capsys)
+    assert set(refused) == {'rocon:/our_robot/bob'} and len(refused) == 2     # and without spaces
 
 
 @pytest.mark.parametrize('line, kind', [
