@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 from made_packages import make_package
 from sources import ROOT
-from test_cli import run_on_terminal
+from test_cli import run, run_on_terminal
 
 from rocon_uri.cli import main
 from rocon_uri.lint.explanations import EXPLANATIONS
@@ -310,3 +310,26 @@ def test_carets_are_below_text_after_wide_characters(workspace):
     [(line, below)] = re.findall('    (.*)\n    ( *\\^{6})\n', shown)
     # two columns more for the first two characters, one less for the accent
     assert line[below.index('^') - 1:].startswith('no.png')
+
+
+@pytest.mark.parametrize('verb, found, logged', [
+    (['specs', 'check', '.'], ['bad', 'worse'], ['of_machine']),
+    (['specs', 'check', 'src/bad/r.yaml'], ['bad'], ['of_machine', 'worse']),
+    (['specs', 'check', 'other'], [], ['bad', 'of_machine', 'worse']),
+    (['apps', '--robot', 'rocon:/pr2'], [], ['of_machine']),        # which counts the others
+    (['specs', 'list'], [], ['of_machine'])])
+def test_the_fault_of_a_file_of_rules_is_shown_once(workspace, verb, found, logged):
+    """Whoever has sourced a workspace has on the package path what is checked."""
+    for name in 'bad', 'worse', 'other':
+        folder = make_package(workspace / ('src' if name != 'other' else ''), name,
+                              r_yaml='platform: [x]' if name != 'other' else '{}')
+        manifest = folder / 'package.xml'
+        manifest.write_text(manifest.read_text().replace(
+            '<export>', '<export><rocon_uri rules="r.yaml"/>'))
+    (workspace / 'of_machine').mkdir()
+    (workspace / 'of_machine/r.yaml').write_text('platform: [x]')
+    shown = run(*verb, ROS_PACKAGE_PATH=str(workspace / 'src'),
+                ROCON_URI_RULES=str(workspace / 'of_machine/r.yaml'))
+    faulty = re.findall('(.*/)?(.+)/r.yaml:1:1: .*unknown field', shown.stdout + shown.stderr)
+    assert sorted(name for _, name in faulty) == sorted(found + logged)
+    assert sorted(re.findall('rules left out: .*/(.+)/r.yaml:', shown.stderr)) == logged

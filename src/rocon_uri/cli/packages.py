@@ -13,9 +13,11 @@ from rocon_uri.sources.wording import near_misses
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Callable, Collection, List, Optional, Sequence, Tuple
+    from logging import LogRecord
+    from typing import Callable, Collection, Iterable, List, Optional, Sequence, Tuple
 
     from rocon_uri.sources.located import Fault
+    from rocon_uri.sources.packages import PackageError
     from rocon_uri.workspace import Workspace
 
 __all__ = ['PackageReport', 'add_package_path', 'escape_unencodable', 'meant', 'mention_faults',
@@ -111,11 +113,16 @@ def package_path(args: argparse.Namespace, report: Optional[PackageReport] = Non
 
 def workspace(args: argparse.Namespace) -> Tuple[PackageReport, Workspace]:
     """All that the packages on the package path export, and a report without their faults yet."""
-    from rocon_uri.workspace import read_workspace  # here, since it loads catkin_pkg and YAML
+    # here, since they load catkin_pkg and YAML
+    from rocon_uri.exported_rules import rules_paths
+    from rocon_uri.sources.packages import find_packages
+    from rocon_uri.workspace import load_workspace
     escape_unencodable()
-    quiet_loggers()
     report = PackageReport(args.json)
-    return report, read_workspace(package_path(args, report))
+    faults: List[PackageError] = []
+    packages = find_packages(package_path(args, report), faults)
+    quiet_loggers([*rules_paths(packages), *(fault.file_name for fault in faults)])
+    return report, load_workspace(packages, faults)
 
 
 def mention_faults(args: argparse.Namespace, report: PackageReport, exported: Workspace,
@@ -147,12 +154,26 @@ def mention_faults(args: argparse.Namespace, report: PackageReport, exported: Wo
             ' '.join(map(shlex.quote, check))))
 
 
-def quiet_loggers() -> None:
-    """Say nothing twice: what discovery logs is reported too, or is for the linter to say."""
+def quiet_loggers(reported: Iterable[str]) -> None:
+    """
+    Say nothing twice: what discovery logs is reported too, or is for the linter to say.
+
+    :param reported: iterable of str, the absolute paths of the manifests and the files of rules
+        whose faults the verb reports
+    """
     import logging      # discovery has loaded it in any case
     logger = logging.getLogger('capabilities')
     if not logger.handlers:
         logger.addHandler(logging.NullHandler())
+    _reported[:] = [wording.printable(path) + ':' for path in reported]
+    logging.getLogger('rocon_uri').addFilter(_is_not_reported)      # which adds it once
+
+
+_reported: List[str] = []   # how the faults begin that are not to be logged
+
+
+def _is_not_reported(record: LogRecord) -> bool:
+    return not record.getMessage().partition(' left out: ')[2].startswith(tuple(_reported))
 
 
 def escape_unencodable() -> None:

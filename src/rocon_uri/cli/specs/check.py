@@ -86,12 +86,13 @@ def main(args: argparse.Namespace) -> int:
     """Do it, and return the exit status."""
     # here, since they load catkin_pkg and YAML, and a verb can be asked for help without
     from dataclasses import replace
+    from rocon_uri.exported_rules import rules_paths
     from rocon_uri.lint import ERROR, WARNING, check_package_index
+    from rocon_uri.lint.checked_file import is_inside
     from rocon_uri.lint.junit import junit_text
     from rocon_uri.lint.targets import find_targets
     from rocon_uri.sources.packages import find_packages
     escape_unencodable()
-    quiet_loggers()
     report = PackageReport(args.json or args.format == 'json')
     if args.explain is not None:
         return _explain(args, report)
@@ -102,6 +103,9 @@ def main(args: argparse.Namespace) -> int:
         report.bad(error)
     if not targets.are_whole:
         others = {**others, **find_packages([os.curdir])}
+    quiet_loggers([fault.file_name for fault in targets.faults] + [
+        path for path in rules_paths(targets.packages)
+        if any(is_inside(path, given) for given in targets.only)])
     checked = check_package_index(targets.packages, others, targets.faults, targets.only,
                                   args.ignore, targets.findings)
     if args.warnings_as_errors:
