@@ -13,7 +13,8 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from rocon_uri import (Field, PatternTooComplex, ResourceIndex, RoconURI, RoconURIValueError,
                        Vocabulary, is_compatible, parse)
-from rocon_uri.name_pattern import NamePattern
+from rocon_uri import name_index
+from rocon_uri.name_pattern import Glob, NamePattern
 from rocon_uri.regular.budget import REQUEST_WORK_LIMIT, WORK_LIMIT
 from rocon_uri.regular.intersection import Intersection
 from rocon_uri.vocabulary import complete
@@ -186,6 +187,43 @@ def test_resources_of_one_name_are_discarded_in_any_order(seed):
         index.discard(uri)
         uris.remove(uri)
         assert list(index.find('rocon:/pr2/bob')) == uris
+
+
+def test_names_are_sorted_again_only_after_many_changes(monkeypatch):
+    made = []
+
+    class CountedOrder(name_index._Order):
+        def __init__(self, *args):
+            made.append(self)
+            super().__init__(*args)
+    monkeypatch.setattr(name_index, '_Order', CountedOrder)
+    index = ResourceIndex('rocon:/pr2/bob_%d' % number for number in range(1000))
+    for number in range(300):
+        index.add('rocon:/pr2/al_%d' % number)
+        index.discard('rocon:/pr2/bob_%d' % number)
+        assert index.count('rocon:/pr2/al*') == number + 1
+    assert len(made) == 1
+    for number in range(300):
+        index.add('rocon:/pr2/carol_%d' % number)
+    assert index.count('rocon:/pr2/carol*') == 300
+    assert len(made) == 2
+
+
+@pytest.mark.parametrize('pattern, tried, found', [
+    ('al*_left', ['bo_left', 'al_left', 'al_0_left'], ['al_left', 'al_0_left']),
+    ('bo*_left', ['bo_left', 'bo_right'], ['bo_left']),
+])
+def test_only_names_with_the_prefix_or_those_with_the_suffix_are_matched(
+        pattern, tried, found, monkeypatch):
+    names = ['al_%d' % number for number in range(100)] \
+        + ['al_left', 'al_0_left', 'bo_left', 'bo_right']
+    index = ResourceIndex('rocon:/pr2/' + name for name in names)
+    compared, matches = [], Glob.matches
+    monkeypatch.setattr(
+        Glob, 'matches', lambda glob, name: compared.append(name) or matches(glob, name))
+    assert list(index.find('rocon:/pr2/' + pattern)) == [
+        parse('rocon:/pr2/' + name) for name in found]
+    assert sorted(compared) == sorted(tried)
 
 
 def test_many_names_that_end_alike():
