@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+from itertools import count
 from xml.etree import ElementTree
 
 import pytest
@@ -13,6 +14,7 @@ from made_packages import make_package
 from sources import ROOT
 from test_cli import run, run_on_terminal
 
+from rocon_uri import lint
 from rocon_uri.cli import main
 from rocon_uri.lint.explanations import EXPLANATIONS
 
@@ -186,6 +188,37 @@ def test_format_junit_has_a_test_for_each_file(check, workspace):
         ('src/ours/package.xml', []), (DANCE, ['failure']), ('src/ours/usb.yaml', [])]
     assert float(suite.get('time')) >= max(float(case.get('time')) for case in suite) - 0.001
     assert any(float(case.get('time')) > 0 for case in suite)
+
+
+def times(check, *arguments):
+    """The files in a report, each with the time that it took; the last is that of all."""
+    suite = ElementTree.fromstring(check(*arguments, '--format', 'junit')[1].encode())
+    return [*((case.get('name'), case.get('time')) for case in suite), suite.get('time')]
+
+
+def test_the_time_of_a_file_is_that_of_all_its_checks(check, workspace, monkeypatch):
+    monkeypatch.setattr(lint, 'perf_counter', count(1).__next__)        # a second for each check
+    assert times(check, 'ours', '--package-path', '.') == [
+        ('src/ours/package.xml', '2.0000'), (DANCE, '1.0000'), ('src/ours/usb.yaml', '1.0000'),
+        '4.0000']
+
+
+def test_a_file_that_cannot_be_read_takes_no_time(check, workspace):
+    (workspace / 'src/ours/package.xml').write_text('<package>')
+    assert times(check, 'src') == [('src/ours/package.xml', '0.0000'), '0.0000']
+
+
+def test_rules_and_lists_of_apps_of_the_package_are_files_that_are_checked(
+        check, tmp_path, monkeypatch):
+    folder = make_package(tmp_path, 'ours', rules_yaml='{}', apps__x_installed='apps: []')
+    (tmp_path / 'elsewhere.yaml').write_text('{}')
+    (folder / 'package.xml').write_text((folder / 'package.xml').read_text().replace(
+        '<export>', '<depend>app_manager</depend><export><app_manager app_dir="apps"/>' + ''.join(
+            '<rocon_uri rules="%s"/>' % path
+            for path in ('rules.yaml', '../elsewhere.yaml', 'gone.yaml'))))
+    monkeypatch.chdir(folder)
+    assert [file for file, _ in times(check, '.')[:-1]] == [
+        'apps/x.installed', 'package.xml', 'rules.yaml']
 
 
 def test_a_report_is_xml_whatever_a_file_is_called(check, workspace):

@@ -234,6 +234,9 @@ def test_rules_that_are_exported_are_read(tmp_path, monkeypatch):
     ('sensor_msgs/Image', 'sensor_msgs/msg/Image',
      "7:21: error: type 'sensor_msgs/msg/Image' of topic 'image' is not of the form package/Type "
      "(did you mean 'sensor_msgs/Image'?)"),
+    ('sensor_msgs/Image', 'sensor_msgs/msg/Image/x',
+     "7:21: error: type 'sensor_msgs/msg/Image/x' of topic 'image' is not of the form "
+     'package/Type'),
     ('    requires:', '  parameters:\n    requires:', None),    # ... whose type is any word
     ('std_msgs/Empty}', 'std_msgs/Empty}\n  dynamic_parameters: [gain, 7]',
      '10:30: error: the name of a dynamic_parameter is 7, expected text'),
@@ -379,6 +382,9 @@ def test_a_provider_of_nothing_and_two_specs_of_one_name_are_errors(tmp_path, mo
       "'kobuki'?)"]),
     (DANCE.replace('rocon:/kobuki', '"rocon:/pr2|kobukki"'),
      ["1:28: error: compatibility: hardware_platform 'kobukki' is not registered (did you mean "
+      "'kobuki'?)"]),
+    ('launch: dance.launch\n\n\ncompatibility: "rocon:/pr2|kobukki"',
+     ["4:28: error: compatibility: hardware_platform 'kobukki' is not registered (did you mean "
       "'kobuki'?)"]),
     (DANCE.replace('rocon:/kobuki', '>-\n  rocon:/kobukki'),     # nothing nearer is known
      ["1:16: error: compatibility: hardware_platform 'kobukki' is not registered (did you mean "

@@ -79,6 +79,17 @@ def test_apps(tmp_path: Path, monkeypatch: Any, text: str, findings: List[str]) 
     assert found(tmp_path, monkeypatch, text) == ['dance.app:' + line for line in findings]
 
 
+@pytest.mark.parametrize('platform, ids', [('agv', ['group-platform']), ('all', [])])
+def test_an_exported_group_is_a_group_unless_it_is_called_all(
+        tmp_path: Path, monkeypatch: Any, platform: str, ids: List[str]) -> None:
+    make_package(tmp_path, 'a', rules_yaml='hardware_platform: {agv: [agv_1], all: [agv_2]}')
+    manifest = tmp_path / 'a' / 'package.xml'
+    manifest.write_text(manifest.read_text().replace(
+        '<export>', '<export><rocon_uri rules="rules.yaml"/>'))
+    lines = found(tmp_path, monkeypatch, DANCE.replace('pr2', platform))
+    assert [line.rpartition('[')[2].rstrip(']') for line in lines] == ids
+
+
 def test_a_launch_file_is_checked_in_its_own_lines(tmp_path: Path, monkeypatch: Any) -> None:
     assert found(tmp_path, monkeypatch, apps__dance_launch='<launch>') == [
         'dance.launch:1:9: error: launch file is not XML: no element found [launch-not-xml]']
@@ -87,6 +98,7 @@ def test_a_launch_file_is_checked_in_its_own_lines(tmp_path: Path, monkeypatch: 
 @pytest.mark.parametrize('text, finding', [
     ('published_topics: {scan: sensor_msgs/LaserScan}\nsubscribed_topics:', None),
     ('- a', '1:1: error: the interface is a list, expected a mapping [wrong-value]'),
+    ('7', '1:1: error: the interface is 7, expected a mapping [wrong-value]'),
     ('published_topics: 7', '1:19: error: published_topics is 7, expected a mapping [wrong-value]'),
     ('published_topics: {sc-an: a/B}', "1:20: error: name 'sc-an' is not a legal ROS name "
      '[illegal-name]'),

@@ -15,6 +15,7 @@ from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.explanations import EXPLANATIONS
 from rocon_uri.sources.located import LocatedError
 from rocon_uri.sources.yaml_source import load
+from rocon_uri.vocabulary import Vocabulary
 
 RAPP = 'display: Dance\ndescription: A dance\ncompatibility: rocon:/pr2\nlaunch: dance.launch\n'
 
@@ -138,6 +139,12 @@ def test_near_misses_among_many_names_are_looked_for_as_long_as_it_does_not_take
     file = CheckedFile('dance.rapp', '.')
     assert file.suggestion('wave', ['wavy']) == " (did you mean 'wavy'?)"
     assert file.suggestion('wave', ['wavy'] * 20000) == ''
+
+
+def test_in_a_file_that_is_gone_a_fault_is_where_its_value_began():
+    file = CheckedFile('gone.rapp', '.')
+    file.check_compatibility('rocon:/pcc', Vocabulary.bundled(), (3, 16))
+    assert [(finding.line, finding.column) for finding in file.findings] == [(3, 16)]
 
 
 @pytest.mark.parametrize('configuration, found', [

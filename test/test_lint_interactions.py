@@ -138,6 +138,16 @@ def test_a_name_that_is_a_value_of_another_field(tmp_path, monkeypatch, uri, col
         "1:%d: warning: compatibility: name 'kitkat' is %s [misplaced-name]" % (column, meant)])
 
 
+@pytest.mark.parametrize('uri, column, problem', [
+    ('rocon:/pcc', 35, "hardware_platform 'pcc' is not registered (did you mean 'pc'?); to "
+                       'register it, add it to a rules file that a package exports or that '
+                       'ROCON_URI_RULES names'),
+    ('rocon:/pc?', 37, "only the name can have a '?', as part of a pattern")])
+def test_advice_is_given_where_there_is_some(tmp_path, monkeypatch, uri, column, problem):
+    assert found(tmp_path, monkeypatch, '[{name: A, compatibility: "%s"}]' % uri) == [
+        '1:%d: error: compatibility: %s [invalid-uri]' % (column, problem)]
+
+
 PAIRED = '''\
 interactions:
 - {name: Menu, command: web, compatibility: "rocon:/pc", required_pairings: [%s]}
@@ -155,9 +165,10 @@ pairings:
     (('7', 'Menu'), '2:78: error: an item of required_pairings is 7, expected text [wrong-value]'),
     (('Talk, Else', 'Other'), None),        # in another file of the package
 ])
-def test_references_between_entries(tmp_path, monkeypatch, names, finding):
+@pytest.mark.parametrize('where', ['a_interactions', 'y_interactions'])
+def test_references_between_entries(tmp_path, monkeypatch, where, names, finding):
     other = PAIRED.replace('Menu', 'Other').replace('Talk', 'Else') % ('Else', 'Other')
-    assert found(tmp_path, monkeypatch, PAIRED % names, y_interactions=other) == (
+    assert found(tmp_path, monkeypatch, PAIRED % names, **{where: other}) == (
         [finding] if finding else [])
 
 
