@@ -106,31 +106,30 @@ class CheckedFile(Reading):
                 did_you_mean(['%s/%s' % (parts[0], parts[2])] if is_of_ros_2 else [])), place,
                 'illegal-type')
 
-    def check_file(self, name: str, what: str, place: Place, *folders: str,
+    def check_file(self, name: str, what: str, place: Place, folder: str,
                    if_missing: str = ERROR) -> Optional[str]:
         """
-        Check that a file that this one names is in one of the folders, inside the package.
+        Check that a file that this one names is in a folder, inside the package.
 
         :returns: str, its path; None if it is not
         """
-        paths = [os.path.normpath(os.path.join(folder, name)) for folder in folders]
-        inside = [path for path in paths if is_inside(path, self.package_folder)]
-        for path in inside:
-            if os.path.isfile(path):
-                return path
-        denied = [problem for problem in map(_denied, inside) if problem]
-        if denied:
-            self.add(if_missing, '%s %s %s' % (what, quoted(name), denied[0]), place, 'cannot-read')
-        elif inside:
-            is_there = any(map(os.path.exists, inside))
-            other = None if is_there else not_a_path(name, folders[0], self.package_folder)
-            problem = 'is not a file' if is_there else 'does not exist'
-            if other is not None:
-                problem = other.problem + did_you_mean(other.paths)
-            self.add(if_missing, '%s %s %s' % (what, quoted(name), problem), place, 'file-missing')
-        else:
+        path = os.path.normpath(os.path.join(folder, name))
+        if not is_inside(path, self.package_folder):
             self.error('%s %s is outside the package' % (what, quoted(name)), place,
                        'file-outside')
+            return None
+        if os.path.isfile(path):
+            return path
+        denied = _denied(path)
+        if denied:
+            self.add(if_missing, '%s %s %s' % (what, quoted(name), denied), place, 'cannot-read')
+            return None
+        is_there = os.path.exists(path)
+        other = None if is_there else not_a_path(name, folder, self.package_folder)
+        problem = 'is not a file' if is_there else 'does not exist'
+        if other is not None:
+            problem = other.problem + did_you_mean(other.paths)
+        self.add(if_missing, '%s %s %s' % (what, quoted(name), problem), place, 'file-missing')
         return None
 
     def check_launch_file(self, name: str, place: Place, launch_files: LaunchFiles,
