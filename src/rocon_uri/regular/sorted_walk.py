@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ['SortedWalk']
 
-_FEW = 100              # names: for so few, finding common prefixes costs more than it saves
+_FEW = 300              # names: for so few, finding common prefixes costs more than it saves
 _STATES = 2048          # DFA states that are remembered; when there are more, all are forgotten
 _AFTER_NAMES = '\x7f'   # greater than any character of a name
 
