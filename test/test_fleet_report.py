@@ -134,6 +134,31 @@ def test_bad_robots_of_a_file_are_reported_with_their_lines(tmp_path: Path, caps
     assert 'No such file or directory' in capsys.readouterr().err
 
 
+def test_a_fault_of_many_robots_is_said_once_and_all_of_them_are_judged(
+        tmp_path: Path, capsys: Any) -> None:
+    robots, page = tmp_path / 'robots.txt', tmp_path / 'x.html'
+    lines = ['rocon:/zork/bob_%d' % number for number in range(20)] + [
+        'rocon:/cafe_cart', 'rocon:/cafe_cart/3bob', ' rocon:/zork/*/zork ', 'rocon:/zork']
+    robots.write_text('\n'.join(lines))
+    given = ['apps', '--package-path', str(EXAMPLES / 'workspace'), '--html', str(page)]
+    assert main([*given, '--robots-in', str(robots)]) == 2
+    first, name, others = capsys.readouterr().err.replace(str(robots), 'robots').splitlines()
+    assert first.startswith("robots:1: hardware_platform 'zork' is not registered, at character 8")
+    assert name.startswith('robots:22: ')
+    assert others == ("robots: hardware_platform 'zork' is not registered, also on lines 2, 3, 4, "
+                      '5, 6 and 16 more')
+    assert [row['text'] for row in report_in(page)['rows']] == [
+        line.strip() for line in lines if '3bob' not in line]
+
+
+def test_robots_in_utf_16_are_said_to_be_that(tmp_path: Path, capsys: Any) -> None:
+    robots, page = tmp_path / 'robots.txt', tmp_path / 'x.html'
+    robots.write_text('rocon:/pr2\n', encoding='utf-16')
+    given = ['apps', '--package-path', str(EXAMPLES / 'workspace'), '--html', str(page)]
+    assert main([*given, '--robots-in', str(robots)]) == 2
+    assert 'it is UTF-16, not UTF-8: byte 0xff at offset 0' in capsys.readouterr().err
+
+
 def test_robots_of_a_file_without_a_page_are_refused(capsys: Any) -> None:
     assert main(['apps', '--robots-in', FLEET, '--package-path', str(EXAMPLES)]) == 2
     assert capsys.readouterr() == ('', 'rocon_uri apps: error: --robots-in needs --html\n')

@@ -6,9 +6,8 @@ from typing import Dict, Iterator, List
 from rocon_uri.apps.runnable import (
     WITH_NEAR_MISSES, App, Reason, ReasonKind, platform_uri, runnable)
 from rocon_uri.cli.fleet_report import Column, FleetReport, write_fleet
-from rocon_uri.cli.given import GivenURI, shown_name
+from rocon_uri.cli.given import GivenURI
 from rocon_uri.cli.judged import read_robot
-from rocon_uri.cli.lines import read_lines
 from rocon_uri.cli.packages import PackageReport, shown_path
 from rocon_uri.workspace import Workspace
 
@@ -57,24 +56,12 @@ def write_app_report(args: argparse.Namespace, apps: List[App], exported: Worksp
 def _robots(args: argparse.Namespace, exported: Workspace, report: PackageReport
             ) -> Iterator[GivenURI]:
     """The robots that are given; one that is not registered is reported, and judged."""
-    if args.robots_in is None:
-        robot = read_robot(args.robot, exported.vocabulary, report)
-        if robot is not None:
-            yield robot
+    if args.robots_in is not None:
+        yield from report.read_file(args.robots_in, exported.vocabulary)
         return
-    number = 0
-    try:
-        for lines in read_lines(args.robots_in):
-            for line in lines:
-                number += 1
-                text = line.strip()
-                if text and text[0] != '#':
-                    robot = read_robot(text, exported.vocabulary, report,
-                                       shown_name(args.robots_in), number)
-                    if robot is not None:
-                        yield robot
-    except OSError as error:
-        report.bad_file(error)
+    robot = read_robot(args.robot, exported.vocabulary, report)
+    if robot is not None:
+        yield robot
 
 
 def _about(app: App) -> str:

@@ -86,13 +86,14 @@ class Report:
             self.bad_uri(error, file, line)
             return None
 
-    def read_file(self, path: str) -> Iterator[GivenURI]:
+    def read_file(self, path: str, registered: Optional[Vocabulary] = None) -> Iterator[GivenURI]:
         """Read a file of URIs, as `read_lines` does."""
-        for batch in self.read_lines(path):
+        for batch in self.read_lines(path, registered):
             for uri, text, line in batch:
                 yield GivenURI(uri, text, shown_name(path), line)
 
-    def read_lines(self, path: str) -> Iterator[Iterator[Line]]:
+    def read_lines(self, path: str, registered: Optional[Vocabulary] = None
+                   ) -> Iterator[Iterator[Line]]:
         """
         Read a file of URIs, one a line; ``-`` is standard input.
 
@@ -100,9 +101,12 @@ class Report:
         are reported: a fault that many lines have in full where it is met first, and the others
         at the end. Each iterator that is yielded is to be used up before the next; it has what
         can be had without waiting.
+
+        :param Vocabulary registered: the values that are registered; URIs with others are reported,
+            and yielded all the same. Without it, they are left out.
         """
         from rocon_uri.cli.lines import read_lines      # here, since few calls name a file
-        faults = _FaultsOfFile(self, shown_name(path))
+        faults = _FaultsOfFile(self, shown_name(path), registered)
         first = 1
         try:
             for lines in read_lines(path):
@@ -163,9 +167,10 @@ class _FaultsOfFile:
     A kind is what `RoconURIValueError.problem` says: of a value, which, and of all else, not.
     """
 
-    def __init__(self, report: Report, file: str) -> None:
+    def __init__(self, report: Report, file: str, registered: Optional[Vocabulary]) -> None:
         self._report = report
         self._file = file
+        self._registered = registered
         self._open = current()                      # the open one once a value is not registered
         self._counts: Dict[str, int] = {}           # of lines, by kind
         self._others: Dict[str, List[int]] = {}     # a few lines of a kind, the first one left out
@@ -175,20 +180,28 @@ class _FaultsOfFile:
     def legal(self, lines: Iterable[str], first: int) -> Iterator[Line]:
         """The URIs in lines, numbered from ``first``; what is not a URI is reported."""
         unregistered = self._unregistered
+        registered = self._registered
         for number, line in enumerate(lines, first):
             try:
                 if unregistered and self._is_counted(line, number):
+                    if registered:
+                        yield parse_once(line, self._open), line, number
                     continue
-                uri = parse_once(line, current())   # most lines have no white space around
+                uri = parse_once(line, registered or current())     # most have no white space
             except RoconURIValueError:
                 if line.lstrip()[:1] in ('', '#'):
                     continue
                 line = line.strip()
                 try:
-                    uri = parse_once(line, current())
+                    uri = parse_once(line, registered or current())
                 except RoconURIValueError as error:
                     self._add(error, number)
-                    continue
+                    if not registered:
+                        continue
+                    try:
+                        uri = parse_once(line, registered.opened())
+                    except RoconURIValueError:
+                        continue
             yield uri, line, number
 
     def _add(self, error: RoconURIValueError, number: int) -> None:
@@ -197,7 +210,7 @@ class _FaultsOfFile:
             self._report.bad_uri(error, self._file, number)
         if isinstance(error, UnregisteredValue):
             self._kinds[error.field, error.value] = error.problem
-            self._open = Vocabulary.open()
+            self._open = self._registered.opened() if self._registered else Vocabulary.open()
             self._unregistered.update(field for field in _fields(error.uri)
                                       if error.value in field.split('|'))
 

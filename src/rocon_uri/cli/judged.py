@@ -39,17 +39,16 @@ def named_apps(names: Sequence[str], exported: Workspace, report: PackageReport)
 
 
 def read_robot(text: Optional[str], vocabulary: Vocabulary,
-               report: PackageReport, file: Optional[str] = None,
-               line: Optional[int] = None) -> Optional[GivenURI]:
+               report: PackageReport) -> Optional[GivenURI]:
     """The robot; one that is not registered is reported, and may run some apps nevertheless."""
     if text is None:
         text = generate_platform_rocon_uri(default_robot_type, default_robot_name())
     try:
-        return GivenURI(parse(text, vocabulary), text, file, line)
+        return GivenURI(parse(text, vocabulary), text)
     except RoconURIValueError as error:
-        report.bad_uri(error, file, line)
+        report.bad_uri(error)
     try:
-        return GivenURI(parse(text, vocabulary.opened()), text, file, line)
+        return GivenURI(parse(text, vocabulary.opened()), text)
     except RoconURIValueError:
         return None
 
