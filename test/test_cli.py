@@ -196,6 +196,15 @@ def test_a_working_directory_that_was_deleted_is_no_fault_of_writing(verb, tmp_p
     assert done.stderr == 'rocon_uri: the working directory does not exist\n'
 
 
+def test_a_file_that_cannot_be_read_is_no_fault_of_writing(monkeypatch, capsys):
+    def parse_main(args):       # nothing is known to do so
+        raise PermissionError(13, 'Permission denied', '/no/such/file')
+
+    monkeypatch.setattr('rocon_uri.cli.parse.main', parse_main)
+    assert main(['parse', 'rocon:/']) == 2
+    assert capsys.readouterr().err == "rocon_uri: cannot read '/no/such/file': Permission denied\n"
+
+
 def test_a_closed_stderr_is_not_replaced_by_stdout():
     assert run_in_shell('$ROCON_URI parse zork 2>&-').stdout == ''
 
