@@ -110,6 +110,19 @@ def test_the_page_of_apps_has_the_reasons_of_the_verdicts(
                 for reason in app['reasons'] if reason['kind'] != 'platform']
 
 
+def test_the_page_of_apps_takes_the_type_of_the_robots(tmp_path: Path, capsys: Any) -> None:
+    made = make_package(
+        tmp_path, 'ours', apps__x_installed='apps: [{app: ours/dance}]', a_interface='{}',
+        dance_app='{platform: fetch15, interface: ours/a.interface, launch: ours/a.launch}',
+        a_launch='<launch/>')
+    (made / 'package.xml').write_text((made / 'package.xml').read_text().replace(
+        '<export>', '<export><app_manager app_dir="apps"/>'))
+    given = ['apps', '--robot', 'rocon:/fetch', '--package-path', str(tmp_path),
+             '--html', str(tmp_path / 'x.html')]
+    assert main(given) == 1
+    assert main([*given, '--robot-type', 'fetch15']) == 0
+
+
 def test_without_a_file_of_robots_the_page_has_the_one_that_is_given(
         tmp_path: Path, capsys: Any) -> None:
     page = tmp_path / 'x.html'
