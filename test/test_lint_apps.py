@@ -68,6 +68,17 @@ def found(folder: Path, monkeypatch: Any, dance: str = DANCE, name: str = 'dance
      ['4:17: error: allow_parallel is 7, expected true or false [wrong-value]']),
     (DANCE + 'timeout: 7.5\nallow_parallel: false\nrun_args: -v\n'
      'plugins: [{name: a, type: b}]\nplugin_order: [a]', []),
+    (DANCE + 'plugins: [{name: a, type: b}, {name: c, type: b}]\nplugin_order:\n'
+     '  start_plugin_order: [a, c]\n  stop_plugin_order: [c, a]', []),
+    (DANCE + 'plugins: [{name: a, type: b}]\nplugin_order: {start_plugin_order: 7}', [
+        '5:36: error: start_plugin_order is 7, expected a list [wrong-value]']),
+    (DANCE + 'plugins: [{name: video, type: b}]\nplugin_order: {stop_plugin_oder: [a], '
+     'stop_plugin_order: [vidoe]}', [
+         "5:16: warning: unknown key 'stop_plugin_oder' in plugin_order (did you mean "
+         "'stop_plugin_order' or 'start_plugin_order'?) [unknown-key]",
+         "5:58: warning: stop_plugin_order has 'vidoe', and there is no such plugin (did you mean "
+         "'video'?) [unknown-name]"]),
+    (DANCE + 'plugin_order: 7', ['4:15: error: plugin_order is 7, expected a list [wrong-value]']),
     (DANCE + 'plugins: [{name: a}]', ['4:11: error: a plugin has no type [missing-key]']),
     (DANCE + 'plugins: [{name: video, type: b}]\nplugin_order: [vidoe]', [
         "5:15: warning: plugin_order has 'vidoe', and there is no such plugin (did you mean "

@@ -15,6 +15,7 @@ from rocon_uri.workspace import Workspace
 
 __all__ = ['check_app_file']
 
+_PLUGIN_ORDERS = ['start_plugin_order', 'stop_plugin_order']
 _INTERFACE_KEYS = ('published_topics', 'subscribed_topics')
 
 
@@ -80,11 +81,16 @@ def _check_options(source: CheckedMapping, file: CheckedFile) -> None:
                for plugin in file.mappings(source.sequence('plugins'), 'a plugin',
                                            'a mapping with a name and a type')
                if plugin.required_text('type')}
-    for name in source.sequence('plugin_order'):
-        if plugins and not (isinstance(name, str) and name in plugins):
-            file.warn('plugin_order has %s, and there is no such plugin%s' % (
-                quoted(str(name)), file.suggestion(str(name), plugins)),
-                source.value_place('plugin_order'), 'unknown-name')
+    orders, keys = source, ['plugin_order']
+    if isinstance(source.get('plugin_order'), dict):
+        orders, keys = source.mapping('plugin_order'), _PLUGIN_ORDERS
+        orders.warn_of_unknown(keys)
+    for key in keys:
+        for name in orders.sequence(key):
+            if plugins and not (isinstance(name, str) and name in plugins):
+                file.warn('%s has %s, and there is no such plugin%s' % (
+                    key, quoted(str(name)), file.suggestion(str(name), plugins)),
+                    orders.value_place(key), 'unknown-name')
 
 
 def _interface_findings(app: AppFile, package_folder: str) -> List[Finding]:
