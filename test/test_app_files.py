@@ -246,6 +246,25 @@ def test_an_app_without_its_interface_file_does_not_run_but_one_without_its_icon
     assert str(found).startswith("interface file 'ours/gone.interface' does not exist: ")
 
 
+@pytest.mark.parametrize('interface, problem', [
+    ('published_topics: {scan: sensor_msgs/LaserScan}', None), ('', None), ('{}', None),
+    ('published_topics: {', 'cannot be read: did not find expected node content while '
+     'parsing a flow node (line 2, column 1)'),
+    ('[scan]', 'is a list, expected a mapping'), ('scan', "is 'scan', expected a mapping"),
+    ('a: \ud800', 'cannot be read: not UTF-8'),
+])
+def test_an_app_whose_interface_file_cannot_be_read_does_not_run(
+        tmp_path: Path, interface: str, problem: str) -> None:
+    made = package(tmp_path)
+    (made / 'apps' / 'dance.interface').write_bytes(
+        (interface + '\n').encode('utf-8', 'surrogatepass'))
+    reasons = runnable(read(tmp_path)[0]['ours/dance'], 'rocon:/pr2', SpecIndex()).reasons
+    assert [reason.id for reason in reasons] == ([] if problem is None else [
+        'interface-unreadable'])
+    assert all(str(reason).startswith("interface file 'ours/dance.interface' " + str(problem))
+               and reason.id in REASON_IDS for reason in reasons)
+
+
 # The verb
 
 def test_apps_of_both_forms_are_listed_with_their_files(apps: Run, tmp_path: Path) -> None:

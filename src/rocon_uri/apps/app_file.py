@@ -25,12 +25,13 @@ from rocon_uri.sources.checked import CheckedMapping, Reading
 from rocon_uri.sources.launch_file import LaunchFault, LaunchFiles
 from rocon_uri.sources.located import Place
 from rocon_uri.sources.ros_names import is_legal_base_name
-from rocon_uri.sources.yaml_data import YamlMapping, value_place
-from rocon_uri.sources.yaml_source import read_file
+from rocon_uri.sources.wording import shown
+from rocon_uri.sources.yaml_data import YamlError, YamlMapping, value_place
+from rocon_uri.sources.yaml_source import load, read_file
 from rocon_uri.vocabulary import Vocabulary
 
 __all__ = ['ALL', 'AppFile', 'InvalidApp', 'KEYS', 'WHAT_RESOURCES_ARE', 'app_from_file_path',
-           'app_from_string', 'launch_file_fault']
+           'app_from_string', 'interface_problem', 'launch_file_fault']
 
 #: the platform of an app that runs on every robot
 ALL = 'all'
@@ -217,6 +218,24 @@ def launch_file_fault(launch: Resource, launch_files: LaunchFiles) -> Optional[L
     folder, file = os.path.split(str(launch.path))
     fault = launch_files.look_at(file, folder).fault
     return fault and replace(fault, name=launch.name)
+
+
+def interface_problem(interface: Resource) -> Optional[str]:
+    """
+    What is against an interface file that a resource name stands for: app_manager reads it too.
+
+    :param Resource interface: one that exists
+    :returns: str, None if nothing is
+    """
+    path = str(interface.path)
+    try:
+        data = load(read_file(path), path)
+    except OSError as error:
+        return 'cannot be read: %s' % (error.strerror or error)
+    except YamlError as error:
+        place = '' if error.line is None else ' (line %s, column %s)' % error.place
+        return 'cannot be read: %s%s' % (error.problem, place)
+    return None if isinstance(data, dict) or not data else 'is %s, expected a mapping' % shown(data)
 
 
 def _check_clients(source: CheckedMapping) -> None:

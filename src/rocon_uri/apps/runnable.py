@@ -15,7 +15,8 @@ from capabilities.planning.faults import Fault, FaultKind
 from capabilities.planning.plan import StartPlan
 from capabilities.planning.providers import plan_for_capabilities
 from capabilities.spec_index import SpecIndex
-from rocon_uri.apps.app_file import WHAT_RESOURCES_ARE, AppFile, launch_file_fault
+from rocon_uri.apps.app_file import (
+    WHAT_RESOURCES_ARE, AppFile, interface_problem, launch_file_fault)
 from rocon_uri.apps.rapp import Rapp
 from rocon_uri.sources.resources import AMBIGUOUS, MISSING
 from rocon_uri.compatibility import Explanation, explain
@@ -56,7 +57,7 @@ REASON_IDS: Tuple[str, ...] = (ReasonKind.VIRTUAL.value, ReasonKind.PLATFORM.val
                                  if kind is not FaultKind.NO_NODELET_MANAGER),
                                'launch-ambiguous', 'icon-ambiguous',
                                *('%s-%s' % (key, kind) for key in ('run', 'interface')
-                                 for kind in (MISSING, AMBIGUOUS)))
+                                 for kind in (MISSING, AMBIGUOUS)), 'interface-unreadable')
 
 
 class Reason(NamedTuple):
@@ -232,6 +233,11 @@ def _app_file_reasons(app: AppFile, robot: RoconURI, robot_type: Optional[str],
             yield Reason(
                 kind=ReasonKind.LAUNCH, id='%s-%s' % (key, found.kind),
                 problem='%s %s %s' % (WHAT_RESOURCES_ARE[key], quoted(found.name), found.problem))
+        elif key == 'interface':
+            problem = interface_problem(found)
+            if problem is not None:
+                yield Reason(kind=ReasonKind.LAUNCH, id='interface-unreadable',
+                             problem='interface file %s %s' % (quoted(found.name), problem))
         elif key == 'launch':
             fault = launch_file_fault(found, launch_files)
             if fault is not None:
