@@ -236,7 +236,9 @@ def sarif(check, *arguments):
 
 
 def test_format_sarif(check, workspace, tmp_path):
-    (run,) = sarif(check, 'ours', '--package-path', '.')['runs']
+    log = sarif(check, 'ours', '--package-path', '.')
+    (run,) = log['runs']
+    assert log['version'] == '2.1.0' and 'sarif-2.1.0' in log['$schema']
     assert run['columnKind'] == 'unicodeCodePoints'
     assert [rule['id'] for rule in run['tool']['driver']['rules']] == [
         'launch-missing', 'file-missing']

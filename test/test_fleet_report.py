@@ -62,6 +62,7 @@ def test_the_page_of_a_matrix_says_what_is_compatible_and_which_fields_are(
             assert [mark == 'x' for mark in found['fields']] == [
                 field.is_compatible for field in rocon_uri.explain(app, robot).fields]
     assert report['columns'][0]['label'] == 'cafe_rapps/patrol'
+    assert report['legend'] == 'x fits, . does not, ? is too complex to say'
     assert report['fields'] == ['hardware_platform', 'name', 'application_framework',
                                 'operating_system']
 
@@ -343,6 +344,7 @@ def first_rows(browser: Any) -> List[str]:
 
 def test_a_cell_says_why_when_it_is_clicked(fleet: Any) -> None:
     assert text_of(fleet, '#count') == '44 of 44 resources, 16 of 16 requests'
+    assert text_of(fleet, '#legend').startswith('x fits, . does not')
     row = fleet.find_elements('css selector', '#grid tbody tr[data-i]')[0]
     assert row.text.split() == (
         'rocon:/waiterbot/waiter_1/indigo/trusty . x x x . x x . . . . . . . . .'.split())

@@ -104,6 +104,8 @@ def test_app_manager_asks_only_packages_that_depend_on_it(found, dependency, is_
     ('x_yaml', SPEC % 'semantic_interface',
      '<semantic_capability_interface>x.yaml</semantic_capability_interface>'),
     ('x_yaml', 'spec_type: interface\n', None),
+    ('x_yaml', 'spec_type: interface\na: {spec_version: 1}\n', None),
+    ('x_yaml', 'spec_version: 1\na: {spec_type: interface}\n', None),
     ('x_yaml', 'a: {spec_type: interface, spec_version: 1}\n', None),
     ('x_yaml', SPEC % 'interfce', '<capability_interface>x.yaml</capability_interface>'),
     ('x_yaml', SPEC % 'Provider', '<capability_provider>x.yaml</capability_provider>'),
