@@ -275,6 +275,33 @@ def test_columns_are_counted_in_code_points(check, workspace):
         'startLine': 1, 'startColumn': 17}
 
 
+@pytest.mark.parametrize('mark', ['', '\ufeff'])
+def test_a_byte_order_mark_is_no_column(check, tmp_path, monkeypatch, mark):
+    folder = make_package(tmp_path, 'ours', [('rocon_app', 'b.rapp'), ('rocon_app', 'no.rapp')],
+                          b_rapp='{compatibility: "rocon:/pr3", launch: a.launch, display: A}')
+    (folder / 'a.launch').write_text('<robot/>')
+    (folder / 'c.interactions').write_text('[{name: A, compatibility: "rocon:/", command: c}, 7]')
+    manifest = folder / 'package.xml'
+    manifest.write_text(' '.join(manifest.read_text().split()))
+    for path in folder.iterdir():
+        path.write_text(mark + path.read_text())
+    monkeypatch.chdir(folder)
+    column = manifest.read_text().index('<rocon_app>no') + 1 - len(mark)
+    assert found(check()) == [
+        ('a.launch:1:1', 'launch-no-launch'), ('b.rapp:1:1', 'missing-key'),
+        ('b.rapp:1:25', 'invalid-uri'), ('c.interactions:1:51', 'wrong-value'),
+        ('package.xml:1:%d' % column, 'file-missing')]
+    shown = run_on_terminal('specs', 'check', str(folder), NO_COLOR='1')
+    assert '    {compatibility: "rocon:/pr3"' in shown and '    <robot/>\n    ^\n' in shown
+
+
+@pytest.mark.parametrize('mark', [b'', b'\xef\xbb\xbf'])
+def test_nor_is_it_where_a_launch_file_is_not_xml(check, workspace, mark):
+    (workspace / 'src/ours/rapps/dance.launch').write_bytes(mark + b'<launch></lanch>')
+    assert found(check('src/ours/rapps/dance.launch')) == [
+        ('src/ours/rapps/dance.launch:1:11', 'launch-not-xml')]
+
+
 def oracle(name):
     """A module of PyPI that test/lint_requirements.txt names, in a Python that has it."""
     pythons = list((ROOT / 'build' / 'lint' / 'bin').glob('python3'))

@@ -217,7 +217,7 @@ class CheckedFile(Reading):
             return place
         if self._lines is None:
             try:
-                self._lines = split_lines(read_file(self.path).decode('utf-8', 'replace'))
+                self._lines = split_lines(read_file(self.path).decode('utf-8-sig', 'replace'))
             except OSError:
                 self._lines = []
         shown = self._lines[line - 1][column - 1:] if line <= len(self._lines) else ''

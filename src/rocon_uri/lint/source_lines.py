@@ -43,7 +43,7 @@ class SourceLines:
         """
         if path not in self._files:
             try:
-                text = read_file(path).decode('utf-8', 'replace')
+                text = read_file(path).decode('utf-8-sig', 'replace')
             except OSError:
                 text = ''
             self._files[path] = (_split_xml_lines if is_xml(path) else split_lines)(text)

@@ -16,6 +16,7 @@ not looked at.
 """
 from __future__ import annotations
 
+import codecs
 import os
 import stat
 import threading
@@ -272,8 +273,11 @@ def _check_xml(content: bytes) -> None:
     path: List[str] = []
     declared: List[str] = []
 
-    def refuse(kind: str, problem: str) -> NoReturn:
-        raise _Refused(kind, problem, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1)
+    def refuse(kind: str, problem: str, line: Optional[int] = None, offset: int = 0) -> NoReturn:
+        if line is None:
+            line, offset = parser.CurrentLineNumber, parser.CurrentColumnNumber
+        has_mark = line == 1 and content.startswith(codecs.BOM_UTF8)    # which is no column
+        raise _Refused(kind, problem, line, offset + 1 - has_mark)
 
     def start(tag: str, _: Dict[str, str]) -> None:
         if not path and tag != 'launch':
@@ -297,7 +301,7 @@ def _check_xml(content: bytes) -> None:
     try:
         parser.Parse(content, True)
     except expat.ExpatError as error:
-        raise _Refused(NOT_XML, 'is not XML: %s' % expat.ErrorString(error.code), error.lineno,
-                       error.offset + 1) from None
+        refuse(NOT_XML, 'is not XML: %s' % expat.ErrorString(error.code), error.lineno,
+               error.offset)
     except (LookupError, ValueError):   # of Python, which expat asks about other encodings
         refuse(NOT_XML, 'is not XML: encoding %s cannot be read' % quoted(''.join(declared)))

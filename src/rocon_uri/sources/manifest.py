@@ -140,7 +140,7 @@ def read_manifest(path: str) -> str:
         raise PackageError('larger than 1 MiB, which is all that is read', path)
     if '<!ENTITY' in text:  # not every expat bounds how large they become
         raise PackageError('it declares entities, and those are not read', path)
-    return text
+    return text[1:] if text.startswith('\ufeff') else text     # a byte order mark is no column
 
 
 def package_from_manifest(path: str) -> Package:
