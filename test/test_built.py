@@ -5,8 +5,9 @@ import os
 import subprocess
 import sys
 
+import built as asked_for
 import pytest
-from built import built
+from built import built, unless_built
 from sources import ROOT, SOURCE
 
 ORDERS = [
@@ -37,3 +38,11 @@ def test_what_was_built_is_not_skipped(names, status, tmp_path):
         [sys.executable, '-m', 'pytest', '-q', '-p', 'no:cacheprovider', *modules],
         cwd=str(tmp_path), env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     assert done.returncode == status, done.stdout
+
+
+@pytest.mark.parametrize('packages, is_there, is_skipped', [
+    ([''], False, True), ([''], True, False), (['rocon_uri'], False, False)])
+def test_where_it_was_built_no_test_is_skipped_for_a_tool_that_is_missing(
+        packages, is_there, is_skipped, monkeypatch):
+    monkeypatch.setattr(asked_for, 'PACKAGES', packages)
+    assert unless_built(is_there, 'no catkin').args == (is_skipped,)

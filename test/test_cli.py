@@ -437,3 +437,16 @@ class Broken(io.StringIO):
 def test_a_stream_of_a_program_that_calls_it_may_be_closed_at_the_other_end():
     with contextlib.redirect_stdout(Broken()):
         assert main(['fields']) == 0
+
+
+def test_the_output_of_that_program_is_left_open():
+    done = run_in_shell("%s -c '%s'" % (sys.executable, '''
+import contextlib, io
+from rocon_uri.cli import main
+class Broken(io.StringIO):
+    def write(self, text):
+        raise BrokenPipeError
+with contextlib.redirect_stdout(Broken()):
+    main(["fields"])
+print("still here")'''), PYTHONPATH=str(SOURCE))
+    assert (done.stdout, done.stderr) == ('still here\n', '')
