@@ -16,7 +16,9 @@ from test_cli import run, run_on_terminal
 
 from rocon_uri import lint
 from rocon_uri.cli import main
+from rocon_uri.lint import ERROR, WARNING, Finding
 from rocon_uri.lint.explanations import EXPLANATIONS
+from rocon_uri.lint.junit import junit_text
 
 RAPP = 'display: Dance\ndescription: A dance\ncompatibility: rocon:/pr2\nlaunch: dance.launch\n'
 CAMERA = ('name: Camera\nspec_version: 1\nspec_type: interface\ninterface:\n'
@@ -188,6 +190,25 @@ def test_format_junit_has_a_test_for_each_file(check, workspace):
         ('src/ours/package.xml', []), (DANCE, ['failure']), ('src/ours/usb.yaml', [])]
     assert float(suite.get('time')) >= max(float(case.get('time')) for case in suite) - 0.001
     assert any(float(case.get('time')) > 0 for case in suite)
+
+
+def test_a_report_says_how_many_errors_are_in_a_file_and_shows_its_warnings():
+    findings = [Finding('a.rapp', 1, 1, ERROR, 'no', 'cycle'),
+                Finding('a.rapp', 2, 1, ERROR, 'no', 'cycle'),
+                Finding('b.rapp', 3, 1, WARNING, 'a < b', 'one-slash'),
+                Finding('a.rapp', 4, 1, WARNING, 'well', 'one-slash'),
+                Finding('c.rapp', None, None, ERROR, 'no', 'no-package')]
+    suite = ElementTree.fromstring(junit_text(findings, {'a.rapp': 1, 'b.rapp': 0.5}))
+    assert suite.attrib == {'name': 'rocon_uri_check', 'tests': '3', 'failures': '2',
+                            'errors': '0', 'time': '1.5000'}
+    assert [(case.get('name'), case.get('time'), below.tag, below.attrib, below.text)
+            for case in suite for below in case] == [
+        ('a.rapp', '1.0000', 'failure', {'message': '2 errors', 'type': 'error'}, '\n'.join([
+            'a.rapp:1:1: error: no [cycle]', 'a.rapp:2:1: error: no [cycle]',
+            'a.rapp:4:1: warning: well [one-slash]'])),
+        ('b.rapp', '0.5000', 'system-out', {}, 'b.rapp:3:1: warning: a < b [one-slash]'),
+        ('c.rapp', '0.0000', 'failure', {'message': '1 error', 'type': 'error'},
+         'c.rapp: error: no [no-package]')]
 
 
 def times(check, *arguments):

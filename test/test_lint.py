@@ -669,6 +669,12 @@ def test_github_gets_no_command_from_a_file():
     assert '\n' not in str(finding)
 
 
+def test_github_gets_no_character_that_cannot_be_printed():
+    finding = Finding("a\x1b'\\.rapp", 1, 1, ERROR, "it's \u2028 no", 'cycle')
+    assert finding.as_github() == (
+        "::error file=a\\x1b'\\.rapp,line=1,col=1,title=cycle::it's \\u2028 no")
+
+
 @pytest.mark.parametrize('path, line', [
     ('::error ::x.rapp', './::error ::x.rapp:1:1: error: no [cycle]'),
     (' ::error ::x.rapp', './ ::error ::x.rapp:1:1: error: no [cycle]'),

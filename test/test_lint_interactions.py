@@ -49,6 +49,8 @@ def test_a_name_may_be_missing_where_a_rapp_is_paired(tmp_path, monkeypatch, nam
     (first(), first(role='Guest'), None),
     (first(), first(namespace='/kitchen'), None),
     (first(), first(namespace='/'), 'error'),
+    (first(), first(namespace=''), 'error'),
+    (first(compatibility='rocon:/tablet'), first(), 'warning'),
     (first(), first(compatibility='rocon:/tablet'), 'warning'),
     (later(), later(), 'error'),
     (later(), later(command='other'), 'error'),
@@ -61,6 +63,7 @@ def test_a_name_may_be_missing_where_a_rapp_is_paired(tmp_path, monkeypatch, nam
     (later(group='Hidden'), later(hidden=True), 'error'),
     (later(), later(hidden=True), None),
     (later(), later(hidden=False), 'error'),
+    (later(), later(hidden=1), 'error'),
     (first(), later(), None),
 ])
 def test_which_two_entries_are_one(tmp_path, monkeypatch, one, other, severity):
@@ -71,14 +74,39 @@ def test_which_two_entries_are_one(tmp_path, monkeypatch, one, other, severity):
                for line in lines)
 
 
-def test_a_group_is_that_of_its_entries(tmp_path, monkeypatch):
-    import json
+@pytest.mark.parametrize('one, other, are_one', [
+    ('group: A', 'group: A', True), ('group: A', 'group: B', False), ('group: ', 'group: ""', True),
+    ('group: ', 'group: Other', False)])
+def test_which_two_pairings_are_one(tmp_path, monkeypatch, one, other, are_one):
+    text = '- pairings:\n' + ''.join(
+        '  - {name: Talk, rapp: ours/honk, %s}\n' % keys for keys in (one, other))
+    assert found(tmp_path, monkeypatch, text) == [
+        "3:5: error: duplicate pairing 'Talk' [duplicate-interaction]"] * are_one
+
+
+def without_group():
+    """An interaction of the later form, whose group is said elsewhere."""
     entry = later()
     del entry['group']
-    text = json.dumps([{'group': 'A', 'interactions': [entry]}, {'B': [entry]},
-                       {'group': 'A', 'interactions': [entry]}])
-    (line,) = found(tmp_path, monkeypatch, text)
-    assert 'duplicate interaction' in line
+    return entry
+
+
+@pytest.mark.parametrize('where, group', [
+    ([without_group()], 'Other'),
+    ({'interactions': [without_group()]}, 'Other'),
+    ({'group': 'A', 'interactions': [without_group()]}, 'A'),
+    ([{'group': 'A', 'interactions': [without_group()]}], 'A'),
+    ({'B': [without_group()]}, 'B'),
+    ({'B': [{'interactions': [without_group()]}]}, 'B'),
+    ({'group': 'A', 'B': [without_group()]}, 'A'),
+    ({'group': 'A', 'interactions': [later(group='B')]}, 'B')])
+def test_a_group_is_that_of_its_entries(tmp_path, monkeypatch, where, group):
+    import json
+    for name in 'A', 'B', 'Other':
+        text = json.dumps([where if isinstance(where, dict) else {'interactions': where},
+                           later(group=name)])
+        lines = found(tmp_path / name, monkeypatch, text)
+        assert ['duplicate interaction' in line for line in lines] == [True] * (name == group)
 
 
 @pytest.mark.parametrize('pairing, finding', [
