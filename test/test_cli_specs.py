@@ -306,6 +306,15 @@ def test_what_is_named_and_not_there_is_in_the_graph(specs, tmp_path):
     assert '"#ours/dance" -> "ours/Legs" [arrowhead=vee' in out
 
 
+def test_graph_of_an_app_that_cannot_be_read_has_its_fault(specs, tmp_path):
+    make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp'), ('rocon_app', 'sing.rapp')],
+                 dance_rapp='launch: 7', sing_rapp='launch: 7')
+    status, _, err = specs('graph', '--package-path', tmp_path, '--app', 'ours/dance')
+    assert status == 2 and err.splitlines()[1] == (
+        '%s:1:9: launch is 7, expected text' % (tmp_path / 'ours' / 'dance.rapp'))
+    assert err.splitlines()[2].startswith('1 file has faults: ')
+
+
 HOSTILE = 'a"];\\x -> "</svg>\n\u202e\udcff<b>&amp;\\'
 
 

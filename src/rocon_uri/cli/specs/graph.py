@@ -53,11 +53,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    from rocon_uri.spec_graph import SpecGraph, spec_graph  # here, since the other verbs do not
+    from rocon_uri.cli.causes import may_explain    # here, since the other verbs do not
+    from rocon_uri.spec_graph import SpecGraph, spec_graph
     from rocon_uri.spec_picture import dot_text
     report, exported = workspace(args)
-    mention_faults(args, report, exported)
     apps = named_apps(args.names, exported, report)
+    mention_faults(args, report, exported,
+                   lambda file: may_explain(file, args.names, apps, (), exported))
     robot = None
     if args.robot is not None:
         robot = read_robot(args.robot, exported.vocabulary, report)
