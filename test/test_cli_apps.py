@@ -462,6 +462,7 @@ def test_the_faults_that_are_about_what_was_asked_are_shown(apps, tmp_path):
     status, _, err = apps('bad/dance', *given)
     assert status == 2 and "no app has the name 'bad/dance'" in err
     assert '%s:1:9: launch is 7, expected text' % (bad / 'dance.rapp') in err
+    assert apps('bad/dance', *given, '--html', tmp_path / 'x.html')[2] == err
 
 
 LEGS = '{name: Legs, spec_version: 1, spec_type: interface, interface: }'

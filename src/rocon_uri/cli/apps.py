@@ -107,6 +107,7 @@ def main(args: argparse.Namespace) -> int:
     if error:
         say('rocon_uri apps: error: ' + error)
         return 2
+    from rocon_uri.cli.causes import is_rules_file, may_explain     # here, since it loads YAML
     report, exported = workspace(args)
     apps = named_apps(args.names, exported, report) if args.names else list(exported.apps())
     robot = None
@@ -115,13 +116,13 @@ def main(args: argparse.Namespace) -> int:
     defaults = read_defaults(args.defaults, report)
     if args.html is not None:
         from rocon_uri.cli.app_report import write_app_report
-        mention_faults(args, report, exported)
+        mention_faults(args, report, exported,
+                       lambda file: may_explain(file, args.names, apps, (), exported))
         found = write_app_report(args, apps, exported, defaults, report)
         if args.json:
             print_json({'robot': None, 'apps': [], 'errors': report.errors})
         return report.status or (0 if found else 1)
     from rocon_uri.apps.runnable import WITH_NEAR_MISSES, runnable   # here, since it loads YAML
-    from rocon_uri.cli.causes import is_rules_file, may_explain
     running = what_runs(args, report)
     verdicts = [] if robot is None else [
         runnable(app, robot.uri, exported.spec_index, defaults, exported.launch_files, args.ignore,
