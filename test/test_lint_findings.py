@@ -201,6 +201,16 @@ def test_what_is_ignored_takes_little_time_to_find_out(tmp_path, monkeypatch):
     assert perf_counter() - begin < 10      # it is one second
 
 
+@pytest.mark.parametrize('text', ['<!-- rocon_uri: ignore[a] ', '<!-- rocon_uri: ignore[',
+                                  '<!--' + ' ' * 1000])
+def test_a_line_of_comments_takes_little_time_to_look_through(tmp_path, text):
+    manifest = make_package(tmp_path, 'ours') / 'package.xml'
+    manifest.write_text(text * (2 ** 20 // len(text)))
+    begin = perf_counter()
+    assert [finding.id for finding in check_packages([str(tmp_path)])] == ['invalid-manifest']
+    assert perf_counter() - begin < 10
+
+
 # Each kind of finding, where it occurs
 
 CAMERA = '''\

@@ -39,7 +39,7 @@ _MAX_ITEMS = 1000   # of a configuration
 _MAX_GLOB = 255     # characters
 
 _ids_in_yaml = re.compile(r'#\s*rocon_uri:\s*ignore\[([^][]*)\]').findall
-_ids_in_xml = re.compile(r'<!--\s*rocon_uri:\s*ignore\[([^][]*)\](?:(?!-->).)*-->').findall
+_ids_in_xml = re.compile(r'<!--\s*rocon_uri:\s*ignore\[([^][]*)\](?:(?!--).)*-->').findall
 _is_xml_comment = re.compile(r'\s*<!--((?!-->).)*-->\s*').fullmatch
 
 
