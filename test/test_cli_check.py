@@ -367,6 +367,15 @@ def test_without_colour_it_still_has_its_line(workspace):
     assert '    icon: dance.png\n          ^^^^^^^^^\n' in shown
 
 
+@pytest.mark.parametrize('columns', [80, 100, 200])
+def test_a_line_is_cut_where_the_terminal_would_wrap_it(workspace, columns):
+    (workspace / DANCE).write_text('{%s, icon: dance.png, colour: %s}' % (
+        RAPP.strip().replace('\n', ', '), 'b' * 200))
+    shown = run_on_terminal('specs', 'check', str(workspace / DANCE), COLUMNS=str(columns))
+    lines = re.findall('\n(    .*\\.\\.\\.)\n', shown)
+    assert len(lines) == 3 and all(columns / 2 < len(line) <= columns for line in lines)
+
+
 def test_a_long_line_is_cut_around_the_place(workspace):
     (workspace / DANCE).write_text('{%s, icon: dance.png, colour: %s}' % (
         RAPP.strip().replace('\n', ', ').replace('A dance', 'a' * 200), 'b' * 200))

@@ -49,6 +49,8 @@ if TYPE_CHECKING:
 
 __all__ = ['add_arguments', 'main']
 
+_INDENT = '    '    # of the line that a finding is in
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the verb takes."""
@@ -144,6 +146,7 @@ def _show(args: argparse.Namespace, checked: Checked, packages: List[str],
 
 def _show_text(findings: Iterable[Finding]) -> None:
     """Print a line for each finding; on a terminal in colour, with the line that it is in."""
+    import shutil
     import sys
     if not sys.stdout.isatty():
         for finding in findings:
@@ -153,6 +156,8 @@ def _show_text(findings: Iterable[Finding]) -> None:
     paint = painter()
     colours = {'error': 'red', 'warning': 'yellow'}
     lines = SourceLines()
+    # before Python 3.11, a terminal that does not know its width has 0 columns
+    width = (shutil.get_terminal_size().columns or 80) - len(_INDENT)
     for finding in findings:
         text, sentence = str(finding), printable(finding.sentence)
         colour = colours[finding.severity]
@@ -160,18 +165,22 @@ def _show_text(findings: Iterable[Finding]) -> None:
               + sentence[len(finding.severity):])
         if finding.line is not None:
             for line in _marked(lines.line(finding.file_name, finding.line), finding.column or 1,
-                                finding.problem):
-                print('    ' + line)
+                                finding.problem, width):
+                print(_INDENT + line)
 
 
-def _marked(line: str, column: int, problem: str) -> List[str]:
-    """The part of a line around a column, and carets below the text there that a problem quotes."""
+def _marked(line: str, column: int, problem: str, width: int) -> List[str]:
+    """
+    The part of a line around a column, and carets below the text there that a problem quotes.
+
+    It has at most so many characters, since carets are below nothing once a line is wrapped.
+    """
     import re
     start = max(0, column - 41)
+    end = start + min(101, max(60, width) - 2 * len('...'))
     before = '...' if start else ''
-    shown = ''.join(c if c.isprintable() else ' ' if c == '\t' else '?'
-                    for c in line[start:column + 60])
-    after = '...' if len(line) > column + 60 else ''
+    shown = ''.join(c if c.isprintable() else ' ' if c == '\t' else '?' for c in line[start:end])
+    after = '...' if len(line) > end else ''
     if not shown.strip():
         return []
     at = column - 1 - start
