@@ -189,7 +189,9 @@ def test_resources_of_one_name_are_discarded_in_any_order(seed):
         assert list(index.find('rocon:/pr2/bob')) == uris
 
 
-def test_names_are_sorted_again_only_after_many_changes(monkeypatch):
+@pytest.fixture
+def sorts(monkeypatch):
+    """The orders of names, each made by sorting all of them once."""
     made = []
 
     class CountedOrder(name_index._Order):
@@ -197,24 +199,32 @@ def test_names_are_sorted_again_only_after_many_changes(monkeypatch):
             made.append(self)
             super().__init__(*args)
     monkeypatch.setattr(name_index, '_Order', CountedOrder)
+    return made
+
+
+def test_names_are_sorted_again_only_after_many_changes(sorts):
+    limit = name_index._CHANGES_LIMIT
     index = ResourceIndex('rocon:/pr2/bob_%d' % number for number in range(1000))
-    for number in range(300):
+    assert index.count('rocon:/pr2/carol*') == 0
+    for number in range(limit):
         index.add('rocon:/pr2/al_%d' % number)
         index.discard('rocon:/pr2/bob_%d' % number)
         assert index.count('rocon:/pr2/al*') == number + 1
-    assert len(made) == 1
-    for number in range(300):
-        index.add('rocon:/pr2/carol_%d' % number)
-    assert index.count('rocon:/pr2/carol*') == 300
-    assert len(made) == 2
+    for changes, times in ((limit, 1), (limit + 1, 2)):
+        for number in range(changes):
+            index.add('rocon:/pr2/carol_%d_%d' % (changes, number))
+        assert index.count('rocon:/pr2/carol_%d_*' % changes) == changes
+        assert len(sorts) == times
 
 
-@pytest.mark.parametrize('pattern, tried, found', [
-    ('al*_left', ['bo_left', 'al_left', 'al_0_left'], ['al_left', 'al_0_left']),
-    ('bo*_left', ['bo_left', 'bo_right'], ['bo_left']),
+@pytest.mark.parametrize('pattern, matched, found, orders', [
+    ('al*_left', ['al_0_left', 'al_left', 'bo_left'], ['al_left', 'al_0_left'], 2),
+    ('bo*_left', ['bo_left', 'bo_right'], ['bo_left'], 2),
+    ('bo*_right', ['bo_right'], ['bo_right'], 2),
+    ('al_l*_left', ['al_left'], [], 1), ('carol*_left', [], [], 1),
 ])
 def test_only_names_with_the_prefix_or_those_with_the_suffix_are_matched(
-        pattern, tried, found, monkeypatch):
+        pattern, matched, found, orders, sorts, monkeypatch):
     names = ['al_%d' % number for number in range(100)] \
         + ['al_left', 'al_0_left', 'bo_left', 'bo_right']
     index = ResourceIndex('rocon:/pr2/' + name for name in names)
@@ -223,7 +233,7 @@ def test_only_names_with_the_prefix_or_those_with_the_suffix_are_matched(
         Glob, 'matches', lambda glob, name: compared.append(name) or matches(glob, name))
     assert list(index.find('rocon:/pr2/' + pattern)) == [
         parse('rocon:/pr2/' + name) for name in found]
-    assert sorted(compared) == sorted(tried)
+    assert (sorted(compared), len(sorts)) == (matched, orders)
 
 
 def test_many_names_that_end_alike():
