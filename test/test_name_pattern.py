@@ -46,6 +46,7 @@ def test_admits_the_names_of_the_conformance_cases(case):
     ('bob?', RegularExpression, 'bo', ''), ('bo+x', RegularExpression, 'bo', 'ox'),
     ('a{3}b{2,}c*', RegularExpression, 'aaabb', ''), ('.*b{2}_\\d', RegularExpression, '', ''),
     ('^[b]ob[0-9]{2}_l$', RegularExpression, 'bob', '_l'), ('[ab]c', RegularExpression, '', 'c'),
+    ('[ac]b[xz]', RegularExpression, '', ''), ('a{2}b{2}', RegularExpression, 'aabb', 'aabb'),
     ('(bob|alice)', RegularExpression, '', ''), ('(a(b(c.)))d', RegularExpression, 'abc', 'd'),
 ])
 def test_kinds_and_what_an_index_needs(text, kind, prefix, suffix):

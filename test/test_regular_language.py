@@ -64,6 +64,8 @@ def test_agrees_with_re_on_30000_pairs(text, seed):
     ('[0-9]?a', ['a'], ['0a']),
     ('x(a?b?){2}', ['x', 'xa', 'xb', 'xba', 'xaba', 'xabab'], ['xbaba', 'xababa', 'xbbb', 'a']),
     ('x(a?b?){2,3}y', ['xy', 'xby', 'xbbby'], ['xbbbby', 'x', 'y']),
+    ('x(a?b?c?)+', ['x', 'xab', 'xbc', 'xac', 'xcba', 'xaabbcc'], ['xd', 'a']),
+    ('((a{200}){2}|bc)d', ['a' * 400 + 'd', 'bcd'], ['a' * 200 + 'd', 'a' * 400 + 'bcd']),
     ('x(a*|b){3}', ['x', 'xbbb', 'xaabaa'], ['xbbbb']),
     ('a{0}b', ['b'], ['ab', 'a']), ('(ab?){0,1}c', ['c', 'ac', 'abc'], ['aac', 'bc']),
     ('.*', ['a', 'A_9', 'x' * 1000], ['', '9', '_a', 'a b', 'a\n', 'ä', 'a/b']),
@@ -97,6 +99,7 @@ def test_unions_are_those_of_the_sets_that_are_selected(size):
 @pytest.mark.parametrize('text, equal', [
     ('a|b'.join('()'), '[ab]'), ('(a|b|a)c', '[ab]c'), ('((a))', 'a'), ('(a*)*b', 'a*b'),
     ('((a?){3}){2,}', 'a*'), ('(a+)*', 'a*'), ('aa*', 'a+'), ('a*a', 'a+'), ('(bc|bc)', 'bc'),
+    ('ab*b', 'ab+'),
     ('(a|)', 'a?'), ('(a*|)', 'a*'), ('a{1}', 'a'), ('a\\W?', 'a'), ('(a|b\\W)', 'a'),
     ('a(x{3}){0}', 'a'), ('(a{2}){3}', 'a{6}'), ('a(b(c|d))', 'ab[cd]'), ('[a-z]*' * 40, '[a-z]*'),
     ('[a-a]', 'a'), ('[Z-Z0-0]', '[Z0]'), ('[a-b]', '[ab]'), ('[ab-b]', '[ab]'),
