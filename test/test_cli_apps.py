@@ -97,6 +97,18 @@ def test_defaults_choose_among_providers(apps, tmp_path):
         assert status == 0 and 'cafe_rapps/greet ' in '\n'.join(lines)
 
 
+def test_a_misspelt_default_is_mentioned_and_one_of_another_package_is_not(apps, tmp_path):
+    defaults = tmp_path / 'defaults.yaml'
+    defaults.write_text('cafe_capabilities/Speach: cafe_capabilities/espeak\n'
+                        'elsewhere/Lift: elsewhere/lift\n')
+    status, lines, err = apps('--robot', ROBOT, '--package-path', EXAMPLES, '--defaults', defaults)
+    assert status == 0 and lines
+    assert err.splitlines() == [
+        "rocon_uri: note: a default for 'cafe_capabilities/Speach' is not used: there is no such "
+        "interface (did you mean 'cafe_capabilities/Speech' or 'cafe_capabilities/Tray' or "
+        "'cafe_capabilities/Camera'?)"]
+
+
 @pytest.mark.parametrize('content, error', [
     (None, 'No such file or directory'), ('[', 'did not find expected node content'),
     ('- a', '1:1: the file is a list, expected a mapping from interfaces to providers'),

@@ -113,7 +113,7 @@ def main(args: argparse.Namespace) -> int:
     robot = None
     if args.html is None:
         robot = read_robot(args.robot, exported.vocabulary, report)
-    defaults = read_defaults(args.defaults, report)
+    defaults = read_defaults(args.defaults, exported.spec_index, report)
     if args.html is not None:
         from rocon_uri.cli.app_report import write_app_report
         mention_faults(args, report, exported,

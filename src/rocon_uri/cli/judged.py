@@ -1,18 +1,19 @@
 """What verbs that judge apps are given: the robot, the default providers, and the names of apps."""
 from __future__ import annotations
 
-from rocon_uri.cli.given import GivenURI
+from rocon_uri.cli.given import GivenURI, say
 from rocon_uri.cli.packages import meant
 from rocon_uri.exceptions import RoconURIValueError
 from rocon_uri.platform import (
     default_robot_name, default_robot_type, generate_platform_rocon_uri)
-from rocon_uri.sources.wording import did_you_mean, quoted
+from rocon_uri.sources.wording import NamesByPart, did_you_mean, quoted
 from rocon_uri.uri import parse
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
-    from typing import Dict, List, Optional, Sequence
+    from typing import Dict, Iterable, List, Optional, Sequence
+    from capabilities.spec_index import SpecIndex
     from rocon_uri.apps.runnable import App
     from rocon_uri.cli.packages import PackageReport
     from rocon_uri.vocabulary import Vocabulary
@@ -53,8 +54,13 @@ def read_robot(text: Optional[str], vocabulary: Vocabulary,
         return None
 
 
-def read_defaults(path: Optional[str], report: PackageReport) -> Dict[str, str]:
-    """The default providers by interface; none if the file is bad, which is reported."""
+def read_defaults(path: Optional[str], spec_index: SpecIndex,
+                  report: PackageReport) -> Dict[str, str]:
+    """
+    The default providers by interface; none if the file is bad, which is reported.
+
+    What is probably a misspelt interface is mentioned. One of another package may stand there.
+    """
     if path is None:
         return {}
     from rocon_uri.sources.checked import Reading   # these load YAML
@@ -64,8 +70,19 @@ def read_defaults(path: Optional[str], report: PackageReport) -> Dict[str, str]:
             read_file(path), 'the file', 'a mapping from interfaces to providers')
         if isinstance(defaults.get('defaults'), dict):
             defaults = defaults.mapping('defaults')
-        return {defaults.key_text(key, 'the name of an interface'):
-                defaults.text_at(key, 'the default provider of %s') for key in defaults}
+        providers = {defaults.key_text(key, 'the name of an interface'):
+                     defaults.text_at(key, 'the default provider of %s') for key in defaults}
     except (OSError, YamlError) as error:
         report.bad_file(error)
         return {}
+    _mention_misspelt(providers, NamesByPart(
+        [*spec_index.interface_names, *spec_index.semantic_interface_names]))
+    return providers
+
+
+def _mention_misspelt(names: Iterable[str], interfaces: NamesByPart) -> None:
+    for name in names:
+        meant = [] if name in interfaces else interfaces.near_misses(name)
+        if meant:
+            say('rocon_uri: note: a default for %s is not used: there is no such interface%s' % (
+                quoted(name), did_you_mean(meant)))

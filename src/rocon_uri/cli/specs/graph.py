@@ -64,7 +64,7 @@ def main(args: argparse.Namespace) -> int:
     if args.robot is not None:
         robot = read_robot(args.robot, exported.vocabulary, report)
     graph = SpecGraph({}, [])
-    defaults = read_defaults(args.defaults, report)
+    defaults = read_defaults(args.defaults, exported.spec_index, report)
     if apps or not args.names:
         graph = spec_graph(exported, None if robot is None else robot.uri, defaults,
                            [app.name for app in apps])
