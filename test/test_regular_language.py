@@ -177,6 +177,7 @@ REFUSED = [
     ('[A-z]', (1, 4), "range 'A-z' is not of two digits", "write '[A-Za-z]'"),
     ('[a-Z]', (1, 4), "range 'a-Z' is not of two digits", "write '[A-Za-z]'"),
     ('[0-a]', (1, 4), "range '0-a' is not of two digits", ''),
+    ('[a-9]', (1, 4), "range 'a-9' is not of two digits", ''),
     ('[_-a]', (1, 4), "range '_-a' is not of two digits", ''),
     ('[z-a]', (1, 4), "range 'z-a' is out of order", "write 'a-z'"),
     ('[]', (0, 2), "class '[]' is empty", ''),
@@ -226,6 +227,17 @@ def test_refused_with_place_and_advice(text, span, problem, advice):
     assert problem in error.problem
     assert advice in error.advice and bool(advice) == bool(error.advice)
     assert '\n' not in str(error)
+
+
+@pytest.mark.parametrize('text, span, problem', [
+    row[:3] for row in REFUSED if row[0][:1] not in '^+{' and 'a ROS name' not in row[2]
+    and 'admits no name' not in row[2]])
+@pytest.mark.parametrize('before', ['b', 'bo', 'b{2}ob'])
+def test_the_place_of_what_is_refused_moves_with_it(before, text, span, problem):
+    with pytest.raises(RoconURIValueError) as caught:
+        parse(before + text)
+    assert problem in caught.value.problem
+    assert caught.value.span == tuple(len(before) + index for index in span)
 
 
 @pytest.mark.parametrize('at, over, problem', [
