@@ -123,6 +123,14 @@ def test_two_packages_of_one_name_are_not_taken_for_one(check, workspace):
     make_package(workspace / 'copy', 'ours', [('rocon_app', 'a.rapp')], a_rapp='[')
     assert found(check(DANCE, 'copy/ours/a.rapp')) == [
         ('copy/ours/package.xml', 'duplicate-package'), *OF_DANCE]
+    assert found(check('copy/ours/a.rapp', DANCE)) == [
+        ('copy/ours/a.rapp:2:1', 'not-yaml'), ('src/ours/package.xml', 'duplicate-package')]
+
+
+def test_a_manifest_that_leads_nowhere_is_an_error(check, workspace):
+    (workspace / 'gone').mkdir()
+    (workspace / 'gone/package.xml').symlink_to('nowhere')
+    assert found(check('gone/package.xml')) == [('gone/package.xml', 'cannot-read')]
 
 
 def test_a_name_that_is_nothing_has_near_misses(check, workspace):

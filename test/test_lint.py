@@ -242,6 +242,8 @@ def test_rules_that_are_exported_are_read(tmp_path, monkeypatch):
      '10:30: error: the name of a dynamic_parameter is 7, expected text'),
     ('std_msgs/Empty}', "std_msgs/Empty}\n  dynamic_parameters: [gain, 'a-b']",
      "10:30: error: dynamic_parameter 'a-b' is not a legal ROS name"),
+    ('std_msgs/Empty}', 'std_msgs/Empty}\n  actions: {dock: {type: Dock}}',
+     "10:26: error: type 'Dock' of action 'dock' is not of the form package/Type"),
     ('name: Camera', 'name: Camera\ndescritpion: x',
      "2:1: warning: unknown key 'descritpion' in the spec (did you mean 'description'?)"),
     ('type: sensor', 'tpye: sensor', "7:7: error: topic 'image' has no type"),
@@ -255,7 +257,11 @@ def test_interfaces(tmp_path, monkeypatch, old, new, finding):
 
 
 @pytest.mark.parametrize('text, finding', [
-    ('global_namespace: front', None),
+    ('global_namespace: front', None), ('global_namespace: front/', None),
+    ('global_namespace: /', None),
+    ('global_namespace: //', "5:19: error: global_namespace '//' is not a legal ROS name"),
+    ('remappings: {topics: {image: a, image: a}}',
+     "5:33: warning: duplicate key 'image', remapped to the same name"),
     ('remappings: {topics: {image: front/image}}', None),
     ('remappings: {topics: {imgae: x}}',
      "5:23: error: 'ours/Camera' has no 'imgae' in topics to remap (did you mean 'image'?)"),
@@ -287,6 +293,8 @@ def test_semantic_interfaces(tmp_path, monkeypatch, text, finding):
      "5:14: error: launch file '../../../etc/passwd' is outside the package"),
     ('launch_file: /etc/passwd', "5:14: error: launch file '/etc/passwd' is outside the package"),
     ('remappings: {topics: {image: /usb/image}}', None),
+    ('remappings: {topics: {image: a, image: a}}',
+     "5:33: warning: duplicate key 'image', remapped to the same name"),
     ('remappings: {topics: {/image: x}}',
      "5:23: error: 'ours/Camera' has no '/image' in topics to remap (did you mean 'image'?)"),
     ('remappings: {services: {image: x}}',
@@ -485,7 +493,9 @@ def test_a_rapp_that_no_uri_can_name_is_a_warning(tmp_path, monkeypatch):
     folder = make_package(tmp_path, 'ours', [('rocon_app', 'tango-nuevo.rapp')])
     (folder / 'tango-nuevo.rapp').write_text(described('{}'))
     (line,) = findings_in(tmp_path, monkeypatch)
-    assert line.startswith('ours/tango-nuevo.rapp: warning: no rocon URI can name rapp')
+    assert line == (
+        "ours/tango-nuevo.rapp: warning: no rocon URI can name rapp 'ours/tango-nuevo': the names "
+        'of package and file have to be ROS base names (a letter, then letters, digits and _)')
 
 
 @pytest.mark.parametrize('name, text, finding', [
@@ -578,6 +588,11 @@ def test_interactions_of_a_package_within_are_not_those_of_the_package(tmp_path,
     folder = make_package(tmp_path, 'ours')
     make_package(folder, 'inner', x_interactions='[')
     assert findings_in(tmp_path, monkeypatch) == []
+    (folder / 'x.interactions').write_text('[')
+    (folder / 'z').mkdir()
+    (folder / 'z' / 'x.interactions').write_text('[')
+    assert [line.partition(' ')[0] for line in findings_in(tmp_path, monkeypatch)] == [
+        'ours/x.interactions:2:1:', 'ours/z/x.interactions:2:1:']
 
 
 # Hostile files

@@ -129,7 +129,10 @@ def test_two_files_of_one_name_are_an_error(tmp_path: Path, monkeypatch: Any) ->
 
 def test_an_app_that_no_uri_can_name_is_a_warning(tmp_path: Path, monkeypatch: Any) -> None:
     [line] = found(tmp_path, monkeypatch, name='tango-nuevo')
-    assert line.startswith("tango-nuevo.app: warning: no rocon URI can name app 'ours/tango-nuevo'")
+    assert line == (
+        "tango-nuevo.app: warning: no rocon URI can name app 'ours/tango-nuevo': the names of "
+        'package and file have to be ROS base names (a letter, then letters, digits and _) '
+        '[illegal-name]')
 
 
 def test_what_is_wrong_with_a_list_is_found_in_it(tmp_path: Path, monkeypatch: Any) -> None:

@@ -210,6 +210,17 @@ def test_a_list_that_cannot_be_read_is_that_and_no_more(found):
     assert findings == [('dance.app', 'not-listed')]
 
 
+def test_a_list_that_cannot_be_read_hides_no_other(found):
+    assert apps(found, dance_app=APP, apps__a_installed='[') == []
+
+
+def test_a_file_that_nobody_sees_is_marked_at_its_begin(tmp_path):
+    folder = make_package(tmp_path, 'ours', a_app=APP, b_rapp=RAPP, c_installed='apps: []')
+    assert [(finding.file_name, finding.line, finding.column)
+            for finding in check_packages([str(folder)])] == [
+        (str(folder / name), 1, 1) for name in ('a.app', 'b.rapp', 'c.installed')]
+
+
 # What catkin refuses
 
 @pytest.mark.parametrize('old, new, line, problem', [

@@ -13,7 +13,9 @@ from sources import ROOT, SOURCE
 from rocon_uri.lint import check_packages, ignoring
 from rocon_uri.lint.checked_file import CheckedFile
 from rocon_uri.lint.explanations import EXPLANATIONS
+from rocon_uri.lint.source_lines import SourceLines
 from rocon_uri.sources.located import LocatedError
+from rocon_uri.sources.wording import quoted
 from rocon_uri.sources.yaml_source import load
 from rocon_uri.vocabulary import Vocabulary
 
@@ -118,6 +120,24 @@ def test_a_comment_in_a_launch_file_ignores(tmp_path, monkeypatch):
     assert ids(tmp_path, monkeypatch) == []
 
 
+def test_a_comment_on_the_last_line_of_xml_is_not_above_the_first(tmp_path, monkeypatch):
+    make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp')], dance_rapp=RAPP,
+                 dance_launch='<robot/>\n<!-- rocon_uri: ignore[launch-no-launch] -->')
+    assert ids(tmp_path, monkeypatch) == [('ours/dance.launch', 'launch-no-launch')]
+
+
+@pytest.mark.parametrize('name, lines', [
+    ('x.yaml', ['a', 'b', 'c', 'd', 'e', 'f']), ('x.rapp', ['a', 'b', 'c', 'd', 'e', 'f']),
+    ('x.launch', ['a\u2028b\x85c', 'd', 'e', 'f']), ('x.xml', ['a\u2028b\x85c', 'd', 'e', 'f'])])
+def test_lines_are_those_that_the_reader_of_a_file_counts(tmp_path, name, lines):
+    path = tmp_path / name
+    path.write_bytes('a\u2028b\x85c\rd\r\ne\nf'.encode())
+    source = SourceLines()
+    assert [source.line(str(path), number) for number in range(len(lines) + 2)] == [
+        '', *lines, '']
+    assert source.line(str(tmp_path / 'gone'), 1) == ''
+
+
 def test_the_comments_of_a_line_are_read_once(tmp_path, monkeypatch):
     read = []
     monkeypatch.setattr(ignoring, '_ids_in_yaml', lambda line: read.append(line) or ['unknown-key'])
@@ -159,6 +179,7 @@ def test_in_a_file_that_is_gone_a_fault_is_where_its_value_began():
         'a/dance.rapp']),
     ("ignore: ['launch-missing:*a*.rapp']", ['b.rapp']),
     ("ignore: ['launch-missing:*a*n*e*r']", ['a/dance.rapp', 'b.rapp']),
+    ("ignore: ['launch-missing:*a*e*rapp']", ['b.rapp']),
     ("ignore: ['launch-missing:dance.rapp']", ['a/dance.rapp', 'b.rapp']),
     ('ignore: [unknown-key]', ['a/dance.rapp', 'b.rapp'])])
 def test_a_package_says_what_is_ignored_in_its_files(tmp_path, monkeypatch, configuration, found):
@@ -181,6 +202,29 @@ def test_a_package_says_what_is_ignored_in_its_files(tmp_path, monkeypatch, conf
 def test_a_faulty_configuration_is_a_finding(tmp_path, monkeypatch, configuration, finding):
     (make_package(tmp_path, 'ours') / '.rocon_uri.yaml').write_text(configuration)
     assert ids(tmp_path, monkeypatch) == [('ours/.rocon_uri.yaml', finding)]
+
+
+@pytest.mark.parametrize('count, is_found', [(1000, False), (1001, True), (1002, True)])
+def test_only_so_many_items_of_a_configuration_count(tmp_path, monkeypatch, count, is_found):
+    """The last one would ignore what is found in the rapp."""
+    folder = make_package(tmp_path, 'ours', [('rocon_app', 'dance.rapp')], dance_rapp=RAPP)
+    (folder / '.rocon_uri.yaml').write_text(
+        'ignore:\n%s- launch-missing\n' % ('- cycle\n' * (count - 1)))
+    monkeypatch.chdir(folder)
+    assert [str(finding) for finding in check_packages(['.'])] == [
+        '.rocon_uri.yaml:1002:3: error: ignore has %d items, of which only 1000 count '
+        '[wrong-value]' % count,
+        "dance.rapp:4:9: error: launch file 'dance.launch' does not exist [launch-missing]",
+    ] * is_found
+
+
+@pytest.mark.parametrize('length, found', [(255, False), (256, True)])
+def test_a_pattern_has_so_many_characters(tmp_path, length, found):
+    folder = make_package(tmp_path, 'ours')
+    glob = length * 'a'
+    (folder / '.rocon_uri.yaml').write_text('ignore: [cycle:%s]' % glob)
+    assert [finding.problem for finding in check_packages([str(folder)])] == [
+        '%s is not a pattern of paths: it has more than 255 characters' % quoted(glob)] * found
 
 
 def test_an_empty_range_of_characters_matches_nothing_or_is_a_finding(tmp_path, monkeypatch):
