@@ -6,7 +6,7 @@ import signal
 import sys
 import threading
 import traceback
-from typing import Any, Iterator, List
+from typing import Any, Iterator, List, Optional
 
 import pytest
 from hypothesis import Phase, settings
@@ -40,6 +40,12 @@ def pytest_configure(config: Any) -> None:
         if plugin is not None:
             config.pluginmanager.unregister(plugin)
     threading.excepthook = sys.unraisablehook = _note
+
+
+def pytest_make_parametrize_id(val: object) -> Optional[str]:
+    """Shorten long ones: the name of a test is in the environment of what it starts."""
+    shown = ascii(val) if isinstance(val, (str, bytes, int)) else ''
+    return '%s... (%d)' % (shown[:60], len(shown)) if len(shown) > 200 else None
 
 
 @pytest.fixture(autouse=True)

@@ -161,3 +161,7 @@ def test_records_are_built_by_keyword() -> None:
                                          or module in records[node.func.id])
         and node.args and not isinstance(node.args[-1], ast.Starred)]
     assert by_position == []
+
+
+def test_the_names_of_tests_fit_into_an_environment(request):
+    assert max(len(item.nodeid) for item in request.session.items) < 1000
