@@ -51,7 +51,8 @@ def test_a_tag_that_is_nearly_one_of_ours_is_a_warning(found, tag, meant):
     'nodelet', 'nav_core', 'controller_interface', 'hardware_interface', 'velocity_interface',
     'transmission_interface', 'joint_limits_interface', 'rqt_gui', 'gazebo_ros', 'moveit_core',
     'concert_service', 'software_farm', 'workflow', 'cpp', 'python', 'rosbag', 'roslaunch',
-    'image_transport', 'filters', 'pluginlib', 'move_base', 'base_local_planner', 'app', 'robot'])
+    'image_transport', 'filters', 'pluginlib', 'move_base', 'base_local_planner', 'app', 'robot',
+    'rocon', 'rocon_app_list'])
 def test_the_tags_of_other_tools_are_none_of_ours(found, tag):
     if tag in ('build_type', 'metapackage', 'deprecated', 'architecture_independent'):
         text = '<%s/>' % tag if tag != 'build_type' else '<build_type>catkin</build_type>'
@@ -75,6 +76,8 @@ def test_the_tags_of_other_tools_are_none_of_ours(found, tag):
                                         "'<app_manager app_dir=\"apps\"/>')"),
     ('<rocon_app file="a.rapp">a.rapp</rocon_app>',
      "'<rocon_app>' has an unknown attribute 'file', expected its path as text"),
+    ('<rocon_app app_dir="gone">a.rapp</rocon_app>',
+     "'<rocon_app>' has an unknown attribute 'app_dir', expected its path as text"),
 ])
 def test_an_attribute_or_a_text_that_nobody_sees_is_a_warning(found, export, problem):
     dependency = '<exec_depend>app_manager</exec_depend><export>'
@@ -88,6 +91,7 @@ def test_an_attribute_or_a_text_that_nobody_sees_is_a_warning(found, export, pro
     ('', True), ('<build_depend>app_manager</build_depend>', False),
     ('<depend>app_manager</depend>', False), ('<exec_depend>app_manager</exec_depend>', False),
     ('<exec_depend>app_manager_msgs</exec_depend>', True),
+    ('<exec_depend>actionlib</exec_depend>', True),
     ('<test_depend>app_manager</test_depend>', True)])
 def test_app_manager_asks_only_packages_that_depend_on_it(found, dependency, is_found):
     findings = found(lambda text: exporting('<app_manager app_dir="${prefix}/apps"/>')(
@@ -238,6 +242,15 @@ def test_a_file_that_nobody_sees_is_marked_at_its_begin(tmp_path):
      'foo'),
     ('<license>', '<run_depend>x</run_depend>\n<license>', 6, 'following tags: run_depend'),
     ('<license>', '<license x="y">', 6, 'The "license" tag must not have the following attr'),
+    ('<license>', '<license description="x">', 6,
+     'The "license" tag must not have the following attributes: description'),
+    ('<license>', '<license>MIT</license>\n<license> </license>\n<license>', 7,
+     'The license tag must neither be empty nor only contain whitespaces'),
+    ('email="somebody@example.org"', 'email=""', 5, 'Maintainers must have an email address'),
+    ('</maintainer>', '</maintainer>\n<maintainer email="">Else</maintainer>', 6,
+     'Maintainers must have an email address'),
+    ('</maintainer>', '</maintainer>\n<maintainer>Else</maintainer>', 6,
+     'The "maintainer" tag must have the attribute "email"'),
 ])
 def test_what_catkin_refuses_is_one_finding_with_its_line_and_hides_no_other(
         found, old, new, line, problem):

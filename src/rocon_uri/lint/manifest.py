@@ -119,15 +119,17 @@ def _place(problem: str, elements: Sequence[Element]) -> Place:
     listed = problem.partition('following tags: ')[2].partition(' - ')[0].split(', ')
 
     def likeness(element: Element) -> int:
+        is_lacking = not element.text or (
+            'email' in problem and not element.attributes.get('email'))
         if element.tag != 'name' and any(
                 value and (repr(value) in problem or '"%s"' % value in problem)
                 for value in (element.text, *element.attributes.values())):
-            return 4
+            return 5
         if '"%s"' % element.tag in problem or element.tag in listed:
-            return 3
+            return 3 + is_lacking
         if element is elements[0] or element.tag not in problem.lower():
             return 0
-        return 1 + (not element.text or ('email' in problem and not element.attributes))
+        return 1 + is_lacking
 
     best = max(elements, key=likeness, default=None)
     if best is None:
