@@ -38,12 +38,19 @@ def exporting(text):
     ('rcon_app', 'rocon_app'), ('capability_interfaces', 'capability_interface'),
     ('capabilty_provider', 'capability_provider'), ('rocon_url', 'rocon_uri'),
     ('semantic_capabilty_interface', 'semantic_capability_interface'),
-    ('app_manger', 'app_manager'), ('appmanager', 'app_manager')])
+    ('capability_provid', 'capability_provider'),
+    ('capability_providerss', 'capability_provider'), ('app_manger', 'app_manager'),
+    ('appmanager', 'app_manager')])
 def test_a_tag_that_is_nearly_one_of_ours_is_a_warning(found, tag, meant):
     ((path, line, fault_id, problem),) = found(exporting('<%s>a</%s>' % (tag, tag)))
     assert (path, line, fault_id) == ('package.xml', 7, 'unknown-export')
     assert problem.startswith("unknown export '<%s>', which nobody sees (did you mean '%s'" % (
         tag, meant))
+
+
+def test_a_tag_with_the_letters_of_one_of_ours_is_no_other(found):
+    ((_, _, _, problem),) = found(exporting('<capability-interface>a</capability-interface>'))
+    assert problem.endswith(" (did you mean 'capability_interface'?)")
 
 
 @pytest.mark.parametrize('tag', [
@@ -52,7 +59,8 @@ def test_a_tag_that_is_nearly_one_of_ours_is_a_warning(found, tag, meant):
     'transmission_interface', 'joint_limits_interface', 'rqt_gui', 'gazebo_ros', 'moveit_core',
     'concert_service', 'software_farm', 'workflow', 'cpp', 'python', 'rosbag', 'roslaunch',
     'image_transport', 'filters', 'pluginlib', 'move_base', 'base_local_planner', 'app', 'robot',
-    'rocon', 'rocon_app_list'])
+    'rocon', 'rocon_app_list', 'capability_provi', 'capability_providersss', 'nocon_app',
+    'apability_interface'])
 def test_the_tags_of_other_tools_are_none_of_ours(found, tag):
     if tag in ('build_type', 'metapackage', 'deprecated', 'architecture_independent'):
         text = '<%s/>' % tag if tag != 'build_type' else '<build_type>catkin</build_type>'
@@ -97,6 +105,23 @@ def test_app_manager_asks_only_packages_that_depend_on_it(found, dependency, is_
     findings = found(lambda text: exporting('<app_manager app_dir="${prefix}/apps"/>')(
         text).replace('<export>', dependency + '<export>'), apps__readme_txt='')
     assert [finding[2] for finding in findings] == ['no-app-manager-dependency'] * is_found
+
+
+@pytest.mark.parametrize('name, is_found', [
+    ('acme', True), ('zoo', True), ('app_manager', False)])
+def test_app_manager_itself_needs_no_dependency(tmp_path, monkeypatch, name, is_found):
+    manifest = make_package(tmp_path, name) / 'package.xml'
+    export = '<app_manager app_dir="."/>'
+    manifest.write_text(exporting(export + '\n  ' + export)(manifest.read_text()))
+    monkeypatch.chdir(manifest.parent)
+    assert [str(finding).partition(' ')[0] for finding in check_packages(['.'])] == [
+        'package.xml:7:11:'] * is_found
+
+
+@pytest.mark.parametrize('export', ['<rocon_uri/>', '<app_manager app_dir="."/>', '<rosdoc/>'])
+def test_what_is_exported_beside_what_is_no_file_is_looked_at(found, export):
+    findings = found(lambda text: exporting(export + '<rocon_app>gone.rapp</rocon_app>')(text))
+    assert 'file-missing' in [finding[2] for finding in findings]
 
 
 # Files that nobody exports
