@@ -353,6 +353,9 @@ def test_inclusion_is_an_order(languages, other):
                                                                        'equal'),
     ('\\D+', '[^0-9]{1,}', 'equal'), ('bob_\\d', 'bob_[^a-z]', 'subset'), ('a?b', 'b', 'superset'),
     ('[0a]b', 'ab', 'equal'), ('[0a]b', '[0b]b', 'disjoint'),
+    ('x[a-c]{2}', 'xc{1,2}b', 'overlap'), ('x[a-c]{1,2}', 'xa+[ab]', 'overlap'),
+    ('xa([ab][a-c]{1,2})', 'xa{2}([ab]|c?[ab]){2}', 'overlap'),
+    ('x([ab]*a[ab]{255}c){5}', 'x((a|b)*a(b|a){255}c){5}', 'equal'),     # of the same tree
 ])
 def test_relation_of_two_patterns(one, other, expected):
     assert relation(language(one), language(other)) == expected
