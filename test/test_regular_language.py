@@ -180,7 +180,7 @@ REFUSED = [
     ('[a-9]', (1, 4), "range 'a-9' is not of two digits", ''),
     ('[_-a]', (1, 4), "range '_-a' is not of two digits", ''),
     ('[z-a]', (1, 4), "range 'z-a' is out of order", "write 'a-z'"),
-    ('[]', (0, 2), "class '[]' is empty", ''),
+    ('[]', (0, 2), "class '[]' is empty", ''), ('a[]bob', (1, 3), "class '[]' is empty", ''),
     ('[^]', (0, 3), "class '[^]' is empty", ''),
     ('a[', (1, 2), "'[' is not closed", ''),
     ('a[b$', (1, 2), "'[' is not closed", ''),
