@@ -40,7 +40,7 @@ def exporting(text):
     ('semantic_capabilty_interface', 'semantic_capability_interface'),
     ('capability_provid', 'capability_provider'),
     ('capability_providerss', 'capability_provider'), ('app_manger', 'app_manager'),
-    ('appmanager', 'app_manager')])
+    ('appmanager', 'app_manager'), ('_rocon_app', 'rocon_app')])
 def test_a_tag_that_is_nearly_one_of_ours_is_a_warning(found, tag, meant):
     ((path, line, fault_id, problem),) = found(exporting('<%s>a</%s>' % (tag, tag)))
     assert (path, line, fault_id) == ('package.xml', 7, 'unknown-export')
