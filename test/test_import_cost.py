@@ -69,7 +69,8 @@ def test_a_verb_that_reads_no_file_loads_nothing_for_it():
 def test_only_a_matrix_loads_what_the_size_of_a_terminal_takes():
     loaded = loaded_by('from rocon_uri.cli import main\n'
                        "main(['match', 'rocon:/', '--in', '/dev/null'])")
-    assert 'rocon_uri.cli.matrix' in loaded and 'shutil' not in loaded
+    assert 'rocon_uri.cli.matrix' in loaded
+    assert 'shutil' not in loaded - loaded_by('import argparse')    # which loads it on Python 3.8
 
 
 def test_only_expressions_load_automata():
