@@ -25,7 +25,7 @@ from rocon_uri.sources.checked import CheckedMapping, Reading
 from rocon_uri.sources.launch_file import LaunchFault, LaunchFiles
 from rocon_uri.sources.located import Place
 from rocon_uri.sources.ros_names import is_legal_base_name
-from rocon_uri.sources.wording import shown
+from rocon_uri.sources.wording import cannot_be_read, shown
 from rocon_uri.sources.yaml_data import YamlError, YamlMapping, value_place
 from rocon_uri.sources.yaml_source import load, read_file
 from rocon_uri.vocabulary import Vocabulary
@@ -231,7 +231,7 @@ def interface_problem(interface: Resource) -> Optional[str]:
     try:
         data = load(read_file(path), path)
     except OSError as error:
-        return 'cannot be read: %s' % (error.strerror or error)
+        return cannot_be_read(error)
     except YamlError as error:
         place = '' if error.line is None else ' (line %s, column %s)' % error.place
         return 'cannot be read: %s%s' % (error.problem, place)
