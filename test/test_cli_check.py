@@ -125,6 +125,8 @@ def test_two_packages_of_one_name_are_not_taken_for_one(check, workspace):
         ('copy/ours/package.xml', 'duplicate-package'), *OF_DANCE]
     assert found(check('copy/ours/a.rapp', DANCE)) == [
         ('copy/ours/a.rapp:2:1', 'not-yaml'), ('src/ours/package.xml', 'duplicate-package')]
+    assert found(check('copy', 'src')) == [
+        ('copy/ours/a.rapp:2:1', 'not-yaml'), ('src/ours/package.xml', 'duplicate-package')]
 
 
 def test_a_manifest_that_leads_nowhere_is_an_error(check, workspace):

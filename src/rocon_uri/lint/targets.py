@@ -78,8 +78,8 @@ class _Finder:
         self.are_whole = True
 
     def add(self, package: Package) -> None:
-        """Take a whole package, unless another one hides it."""
-        if self.packages.setdefault(package.name, package).folder == package.folder:
+        """Take a whole package."""
+        if self._is_first(package):
             self.only.append(package.folder)
 
     def add_folder(self, path: str) -> None:
@@ -101,15 +101,21 @@ class _Finder:
         self.are_whole = False
         try:
             package = package_from_manifest(manifest)
-            first = self.packages.setdefault(package.name, package)
-            if first.folder != package.folder:
-                raise with_id(PackageError('duplicate package %s, the first is in %s' % (
-                    quoted(package.name), quoted_path(first.manifest)), manifest),
-                    'duplicate-package')
-            self.only.append(path)
+            if self._is_first(package):
+                self.only.append(path)
         except PackageError as error:
             self.faults.append(error)
         return True
+
+    def _is_first(self, package: Package) -> bool:
+        """Does no other package have its name? Else that is a fault."""
+        first = self.packages.setdefault(package.name, package)
+        if first.folder == package.folder:
+            return True
+        self.faults.append(with_id(PackageError('duplicate package %s, the first is in %s' % (
+            quoted(package.name), quoted_path(first.manifest)), package.manifest),
+            'duplicate-package'))
+        return False
 
 
 def _manifest_above(path: str) -> Optional[str]:
