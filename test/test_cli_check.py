@@ -119,6 +119,13 @@ def test_a_bad_manifest_of_a_single_file_is_an_error(check, workspace):
     assert found(check(DANCE)) == [('src/ours/package.xml:1:10', 'invalid-manifest')]
 
 
+def test_one_form_of_output_is_given(check, workspace):
+    status, out, err = check('--json', '--format', 'sarif', 'src')
+    assert (status, out, err) == (
+        2, '', 'rocon_uri specs check: error: give --json or --format sarif\n')
+    assert check('--json', '--format', 'json', 'src')[0] == 1
+
+
 def test_two_packages_of_one_name_are_not_taken_for_one(check, workspace):
     make_package(workspace / 'copy', 'ours', [('rocon_app', 'a.rapp')], a_rapp='[')
     assert found(check(DANCE, 'copy/ours/a.rapp')) == [

@@ -95,6 +95,9 @@ def main(args: argparse.Namespace) -> int:
     from rocon_uri.lint.targets import find_targets
     from rocon_uri.sources.packages import find_packages
     escape_unencodable()
+    if args.json and args.format not in ('text', 'json'):
+        say('rocon_uri specs check: error: give --json or --format %s' % args.format)
+        return 2
     report = PackageReport(args.json or args.format == 'json')
     if args.explain is not None:
         return _explain(args, report)
