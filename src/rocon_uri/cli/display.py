@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from typing import Callable, Dict, List
     from rocon_uri.compatibility import Explanation
 
-__all__ = ['fields_as_json', 'painter', 'print_json']
+__all__ = ['columns', 'fields_as_json', 'painter', 'print_json']
 
 _CODES = {'bold': '1', 'faint': '2', 'red': '31', 'green': '32', 'yellow': '33',
           'cyan': '36'}
@@ -26,6 +26,19 @@ def painter() -> Callable[[str, str], str]:
             and os.environ.get('TERM') != 'dumb'):
         return lambda text, style: '\x1b[%sm%s\x1b[0m' % (_CODES[style], text)
     return lambda text, style: text
+
+
+def columns() -> int:
+    """How wide the terminal is, as COLUMNS says or it does itself; 80 where nobody knows."""
+    try:
+        found = int(os.environ.get('COLUMNS', ''))
+    except ValueError:
+        found = 0
+    try:
+        found = found or os.get_terminal_size(sys.stdout.fileno()).columns
+    except (OSError, ValueError):       # not a terminal; ValueError: closed
+        pass
+    return found if found > 0 else 80
 
 
 def print_json(answer: object) -> None:

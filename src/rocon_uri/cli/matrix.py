@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import sys
 
-from rocon_uri.cli.display import painter
+from rocon_uri.cli.display import columns, painter
 from rocon_uri.cli.given import shown_name
 from rocon_uri.compatibility import LEGEND, MARKS, UNDECIDED
 
@@ -27,13 +27,10 @@ __all__ = ['print_matrix', 'print_table', 'write_page']
 
 def print_matrix(matches: Matches) -> None:
     """Print a letter for each request before each resource, below what the columns are."""
-    import shutil       # slow to import, and few calls print a matrix
     paint = painter()
     print(paint(LEGEND + UNDECIDED, 'faint'))
     number = len(matches.requests)
-    # before Python 3.11, a terminal that does not know its width has 0 columns
-    columns = shutil.get_terminal_size().columns or 80
-    is_wide = sys.stdout.isatty() and 2 * number > columns // 2
+    is_wide = sys.stdout.isatty() and 2 * number > columns() // 2
     if is_wide:     # the columns have numbers, and no blanks between them
         digits = len(str(number))
         for index, request in enumerate(matches.requests, 1):

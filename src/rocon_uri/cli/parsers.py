@@ -2,10 +2,10 @@
 from __future__ import annotations
 
 import argparse
-import os
-import sys
 from functools import partial
 from importlib import import_module
+
+from rocon_uri.cli.display import columns
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
 
     def __init__(self, prog: str) -> None:
         # argparse imports a lot to find out the width
-        super().__init__(prog, width=min(_columns(), _WIDEST))
+        super().__init__(prog, width=min(columns(), _WIDEST))
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         import textwrap
@@ -43,18 +43,6 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
             else:
                 paragraph.append(line)
         return '\n'.join(lines[:-1])
-
-
-def _columns() -> int:
-    try:
-        columns = int(os.environ.get('COLUMNS', ''))
-    except ValueError:
-        columns = 0
-    try:
-        columns = columns or os.get_terminal_size(sys.stdout.fileno()).columns
-    except (OSError, ValueError):       # not a terminal; ValueError: closed
-        pass
-    return columns if columns > 0 else 80
 
 
 class Parser(argparse.ArgumentParser):

@@ -32,7 +32,7 @@ from __future__ import annotations
 
 import os
 
-from rocon_uri.cli.display import painter, print_json
+from rocon_uri.cli.display import columns, painter, print_json
 from rocon_uri.cli.given import say
 from rocon_uri.cli.packages import (
     PackageReport, add_package_path, escape_unencodable, package_path, quiet_loggers)
@@ -149,7 +149,6 @@ def _show(args: argparse.Namespace, checked: Checked, packages: List[str],
 
 def _show_text(findings: Iterable[Finding]) -> None:
     """Print a line for each finding; on a terminal in colour, with the line that it is in."""
-    import shutil
     import sys
     if not sys.stdout.isatty():
         for finding in findings:
@@ -159,8 +158,7 @@ def _show_text(findings: Iterable[Finding]) -> None:
     paint = painter()
     colours = {'error': 'red', 'warning': 'yellow'}
     lines = SourceLines()
-    # before Python 3.11, a terminal that does not know its width has 0 columns
-    width = (shutil.get_terminal_size().columns or 80) - len(_INDENT)
+    width = columns() - len(_INDENT)
     for finding in findings:
         text, sentence = str(finding), printable(finding.sentence)
         colour = colours[finding.severity]
