@@ -5,10 +5,9 @@ import os
 from typing import Dict, Iterable, List, Mapping, NamedTuple, Optional
 
 from rocon_uri.lint.finding import WARNING, Finding
-from rocon_uri.sources.located import with_id
 from rocon_uri.sources.packages import (
-    MANIFEST, Package, PackageError, find_packages, package_from_manifest)
-from rocon_uri.sources.wording import did_you_mean, near_misses, quoted, quoted_path
+    MANIFEST, Package, PackageError, duplicate_package, find_packages, package_from_manifest)
+from rocon_uri.sources.wording import did_you_mean, near_misses, quoted_path
 
 __all__ = ['Targets', 'find_targets']
 
@@ -112,9 +111,7 @@ class _Finder:
         first = self.packages.setdefault(package.name, package)
         if first.folder == package.folder:
             return True
-        self.faults.append(with_id(PackageError('duplicate package %s, the first is in %s' % (
-            quoted(package.name), quoted_path(first.manifest)), package.manifest),
-            'duplicate-package'))
+        self.faults.append(duplicate_package(package, first))
         return False
 
 

@@ -25,8 +25,8 @@ from rocon_uri.sources.walk import leads_to_folder
 from rocon_uri.sources.wording import cannot_be_read, quoted, quoted_path
 
 __all__ = ['Element', 'Export', 'MANIFEST', 'Package', 'PackageError', 'as_package',
-           'find_packages', 'manifest_elements', 'package_folders', 'package_from_manifest',
-           'read_manifest']
+           'duplicate_package', 'find_packages', 'manifest_elements', 'package_folders',
+           'package_from_manifest', 'read_manifest']
 
 _IGNORE_MARKERS = frozenset(['AMENT_IGNORE', 'CATKIN_IGNORE', 'COLCON_IGNORE'])
 _NOTHING_BELOW = frozenset([MANIFEST, 'manifest.xml', 'rospack_nosubdirs'])
@@ -53,15 +53,19 @@ def find_packages(paths: Iterable[str], errors: Optional[List[PackageError]] = N
             try:
                 package = package_from_manifest(os.path.join(folder, MANIFEST))
                 if package.name in found:
-                    raise with_id(PackageError('duplicate package %s, the first is in %s' % (
-                        quoted(package.name), quoted_path(found[package.name].manifest)),
-                        package.manifest), 'duplicate-package')
+                    raise duplicate_package(package, found[package.name])
                 found[package.name] = package
             except PackageError as error:
                 errors.append(error)
         for name, package in found.items():
             packages.setdefault(name, package)
     return packages
+
+
+def duplicate_package(package: Package, first: Package) -> PackageError:
+    """The fault of a package that has the name of another one, which was found first."""
+    return with_id(PackageError('duplicate package %s, the first is in %s' % (
+        quoted(package.name), quoted_path(first.manifest)), package.manifest), 'duplicate-package')
 
 
 def package_folders(path: str, errors: Optional[List[PackageError]] = None) -> Iterator[str]:
