@@ -6,7 +6,7 @@ import sys
 from rocon_uri.cli.progress import beside_progress
 from rocon_uri.exceptions import RoconURIValueError, UnregisteredValue
 from rocon_uri.grammar import VOCABULARY_FIELDS
-from rocon_uri.sources.encoding import NOT_UTF8, byte_at
+from rocon_uri.sources.encoding import NOT_UTF8, not_utf8_at
 from rocon_uri.sources.wording import quoted, quoted_path
 from rocon_uri.uri import parse, parse_once
 from rocon_uri.vocabulary import Vocabulary, current
@@ -157,7 +157,7 @@ def not_utf8(text: str) -> str:
         octets = text.encode('utf-8', 'surrogatepass' if error.object[error.start] < '\udc80'
                              else 'surrogateescape')
         offset = len(text[:error.start].encode('utf-8'))
-        return '%s: %s' % (NOT_UTF8, byte_at(octets[offset], offset))
+        return not_utf8_at(octets, offset)
 
 
 class _FaultsOfFile:

@@ -1,7 +1,7 @@
 """What is said of bytes that are not text in UTF-8."""
 from __future__ import annotations
 
-__all__ = ['NOT_UTF8', 'MARKS_OF_UTF16', 'byte_at', 'utf16_problem']
+__all__ = ['NOT_UTF8', 'MARKS_OF_UTF16', 'not_utf8_at', 'utf16_problem']
 
 NOT_UTF8 = 'not UTF-8 (Latin-1?)'
 MARKS_OF_UTF16 = b'\xff\xfe', b'\xfe\xff'
@@ -9,9 +9,14 @@ MARKS_OF_UTF16 = b'\xff\xfe', b'\xfe\xff'
 _START = 200        # bytes that are enough to recognise UTF-16
 
 
-def byte_at(byte: int, offset: int) -> str:
-    """The byte at which something is wrong, as an error names it."""
-    return 'byte 0x%02x at offset %d' % (byte, offset)
+def not_utf8_at(octets: bytes, offset: int) -> str:
+    """
+    What is wrong with bytes that are not UTF-8 from an offset on, and not UTF-16.
+
+    >>> not_utf8_at(bytes([0x61, 0xe9]), 1)
+    'not UTF-8 (Latin-1?): byte 0xe9 at offset 1'
+    """
+    return '%s: %s' % (NOT_UTF8, _byte_at(octets, offset))
 
 
 def utf16_problem(octets: bytes) -> str:
@@ -26,4 +31,8 @@ def utf16_problem(octets: bytes) -> str:
         zero = 0
     else:
         zero = next((first for first in (1, 0) if len(start) > 3 and not any(start[first::2])), -1)
-    return 'UTF-16, not UTF-8: ' + byte_at(start[zero], zero) if zero >= 0 else ''
+    return 'UTF-16, not UTF-8: ' + _byte_at(start, zero) if zero >= 0 else ''
+
+
+def _byte_at(octets: bytes, offset: int) -> str:
+    return 'byte 0x%02x at offset %d' % (octets[offset], offset)

@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING, Dict, List, NamedTuple, Optional, Tuple, Union
 from xml.parsers import expat
 
-from rocon_uri.sources.encoding import NOT_UTF8, byte_at, utf16_problem
+from rocon_uri.sources.encoding import not_utf8_at, utf16_problem
 from rocon_uri.sources.located import LocatedError, with_id
 from rocon_uri.sources.wording import cannot_be_read, quoted
 from rocon_uri.sources.yaml_data import MAX_SIZE, end_position
@@ -134,7 +134,7 @@ def read_manifest(path: str) -> str:
     try:
         text = content.decode('utf-8')
     except UnicodeDecodeError as error:
-        raise PackageError('%s: %s' % (NOT_UTF8, byte_at(content[error.start], error.start)), path,
+        raise PackageError(not_utf8_at(content, error.start), path,
                            *end_position(content[:error.start].decode('utf-8'))) from error
     if len(content) > MAX_SIZE:
         raise PackageError('larger than 1 MiB, which is all that is read', path)

@@ -45,7 +45,7 @@ import stat
 from os import PathLike
 from typing import Any, Union
 
-from rocon_uri.sources.encoding import MARKS_OF_UTF16, NOT_UTF8, byte_at, utf16_problem
+from rocon_uri.sources.encoding import MARKS_OF_UTF16, not_utf8_at, utf16_problem
 from rocon_uri.sources.yaml_data import (
     MAX_DEPTH, MAX_SIZE, YamlError, YamlMapping, YamlSequence, end_position)
 
@@ -140,8 +140,8 @@ def _text(content: Union[str, bytes], file_name: str) -> str:
             text = content.decode(encoding)
         except UnicodeDecodeError as error:
             before = content[:error.start].decode(encoding, 'replace')
-            problem = ('%s: %s' % (NOT_UTF8, byte_at(content[error.start], error.start))
-                       if encoding == 'utf-8' else 'not UTF-16 text: ' + error.reason)
+            problem = (not_utf8_at(content, error.start) if encoding == 'utf-8'
+                       else 'not UTF-16 text: ' + error.reason)
             raise YamlError(problem, file_name, *end_position(before)) from error
     # Counting anywhere comes first: it takes a fiftieth of the time, and most texts need no more.
     if (text.count('%TAG') > _MAX_TAG_DIRECTIVES
