@@ -14,7 +14,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
     from logging import LogRecord
-    from typing import Callable, Collection, Iterable, List, Optional, Sequence, Tuple
+    from typing import Callable, Collection, Iterable, List, Optional, Sequence, Set, Tuple
 
     from rocon_uri.sources.located import Fault
     from rocon_uri.sources.packages import PackageError
@@ -165,15 +165,16 @@ def quiet_loggers(reported: Iterable[str]) -> None:
     logger = logging.getLogger('capabilities')
     if not logger.handlers:
         logger.addHandler(logging.NullHandler())
-    _reported[:] = [wording.printable(path) + ':' for path in reported]
+    _reported.clear()
+    _reported.update(reported)
     logging.getLogger('rocon_uri').addFilter(_is_not_reported)      # which adds it once
 
 
-_reported: List[str] = []   # how the faults begin that are not to be logged
+_reported: Set[str] = set()     # the files whose faults are not to be logged
 
 
 def _is_not_reported(record: LogRecord) -> bool:
-    return not record.getMessage().partition(' left out: ')[2].startswith(tuple(_reported))
+    return not any(getattr(fault, 'file_name', None) in _reported for fault in record.args or ())
 
 
 def escape_unencodable() -> None:
